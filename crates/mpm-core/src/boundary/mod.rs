@@ -1,6 +1,7 @@
 //! What the velocities of the nodes obey beside the balance of momentum: walls and obstacles.
 
 mod contact;
+mod held_surface;
 mod mirror;
 mod node_forces;
 mod obstacle;
@@ -10,6 +11,7 @@ mod signed_distance;
 mod surface;
 
 pub use contact::Contact;
+pub use held_surface::{HeldNode, HeldSurface, ImageNode};
 pub use node_forces::NodeForces;
 pub use obstacle::Obstacle;
 pub use plane::Plane;
@@ -65,13 +67,15 @@ impl<const D: usize> Boundary<D> for NoBoundary {
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, _: &B, _: &GridMotion<D>, _: &mut [N]) {}
 }
 
-/// Forces at nodes, walls, obstacles and prescribed velocities, applied in this order.
+/// Forces at nodes, walls, held surfaces of a mesh, obstacles and prescribed velocities, applied in this order.
 #[derive(Default)]
 pub struct Boundaries<const D: usize> {
     /// Forces at nodes of the mesh.
     pub forces: Vec<NodeForces<D>>,
     /// Plane walls.
     pub walls: Vec<Plane<D>>,
+    /// Parts of the boundary of a mesh.
+    pub surfaces: Vec<HeldSurface<D>>,
     /// Rigid bodies.
     pub obstacles: Vec<Obstacle<D>>,
     /// Given velocities; the last one has the last word.
@@ -88,6 +92,7 @@ impl<const D: usize> Boundaries<D> {
         Self {
             forces: Vec::new(),
             walls,
+            surfaces: Vec::new(),
             obstacles,
             prescribed: Vec::new(),
             masses: Vec::new(),
@@ -98,6 +103,12 @@ impl<const D: usize> Boundaries<D> {
     /// The same, with these velocities.
     pub fn with_prescribed(mut self, prescribed: Vec<Box<dyn PrescribedVelocity<D>>>) -> Self {
         self.prescribed = prescribed;
+        self
+    }
+
+    /// The same, with these surfaces.
+    pub fn with_surfaces(mut self, surfaces: Vec<HeldSurface<D>>) -> Self {
+        self.surfaces = surfaces;
         self
     }
 
@@ -114,6 +125,9 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             wall.contact.check()?;
             signed_distance::check_normal(&wall.normal)?;
         }
+        for surface in &self.surfaces {
+            surface.check()?;
+        }
         for obstacle in &self.obstacles {
             obstacle.contact.check()?;
             obstacle.shape.check()?;
@@ -125,12 +139,19 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
         for forces in &self.forces {
             forces.act(basis, motion, nodes);
         }
-        if !self.walls.is_empty() {
+        if !(self.walls.is_empty() && self.surfaces.is_empty()) {
             self.masses.clear();
             self.masses.extend(nodes.iter().map(GridNode::mass));
         }
         for wall in &self.walls {
             wall.constrain(basis, motion, (&mut self.masses, &mut self.gaps), nodes);
+        }
+        for surface in &mut self.surfaces {
+            surface.constrain(basis, &mut self.masses, nodes);
+        }
+        // Where two meet, the second may have moved nodes of the first.
+        for surface in &self.surfaces {
+            surface.hold(basis, nodes);
         }
         for obstacle in &self.obstacles {
             obstacle.constrain(basis, motion, &mut self.gaps, nodes);

@@ -1,8 +1,8 @@
 //! Walls and obstacles: what the nodes' velocities obey, and what is conserved all the same.
 
 use mpm_core::{
-    Apic, Basis, Boundaries, Boundary, Contact, Extents, GridMotion, GridNode, HalfSpace, Mpm, MpmError, Obstacle,
-    Particles, Plane, SignedDistance, SplineGrid, VelocityNode,
+    Apic, Basis, Boundaries, Boundary, Contact, Extents, GridMotion, GridNode, HalfSpace, HeldNode, HeldSurface,
+    ImageNode, Mpm, MpmError, Obstacle, Particles, Plane, SignedDistance, SplineGrid, VelocityNode,
 };
 use mpm_kernels::{Cubic, Deposit, Linear, Quadratic, Spline};
 use rand::RngExt;
@@ -179,6 +179,111 @@ fn mirroring_is_a_projection() {
         for a in 0..2 {
             assert!((first.velocity()[a] - second.velocity()[a]).abs() < 1e-12);
         }
+    }
+}
+
+/// The nodes at x = 0 and those behind it, each with the image of `sources` before it.
+fn surface(
+    field: &Constrained<SplineGrid<Quadratic, 3, 2>>,
+    slides: bool,
+    sources: impl Fn([f64; 2]) -> Vec<([f64; 2], f64)>,
+) -> HeldSurface<2> {
+    let node = |x: &[f64; 2]| HeldNode {
+        position: *x,
+        normal: [1.0, 0.0],
+        velocity: [0.2, -0.1],
+    };
+    let on = field.positions.iter().filter(|x| x[0] == 0.0);
+    let behind = field.positions.iter().filter(|x| x[0] < 0.0);
+    let image = |x: &[f64; 2]| ImageNode {
+        node: node(x),
+        sources: sources([-x[0], x[1]]),
+    };
+    HeldSurface::new(on.map(node).collect(), behind.map(image).collect(), slides)
+}
+
+#[test]
+fn a_surface_of_mirror_images_is_a_wall() {
+    for (slides, contact) in [(false, Contact::Stick), (true, Contact::Slip)] {
+        let wall = constrained::<Quadratic, 3>(Boundaries::new(vec![wall(0, 0.0, contact, [0.2, -0.1])], Vec::new()));
+        let surface = surface(&wall, slides, |mirror| vec![(mirror, 1.0)]);
+        let held = Boundaries::new(Vec::new(), Vec::new()).with_surfaces(vec![surface]);
+        let held = constrained::<Quadratic, 3>(held);
+        for (one, other) in wall.after.iter().zip(&held.after) {
+            for a in 0..2 {
+                let difference = one.velocity()[a] - other.velocity()[a];
+                assert!(
+                    difference.abs() < 1e-12,
+                    "{slides}: {:?} {:?}",
+                    one.velocity(),
+                    other.velocity()
+                );
+            }
+        }
+    }
+}
+
+/// Images of two nodes each: energy relative to the surface falls, what is an image is one, and a second time nothing changes.
+#[test]
+fn images_between_nodes_are_a_projection() {
+    let free = constrained::<Quadratic, 3>(Boundaries::new(Vec::new(), Vec::new()));
+    let sources = |mirror: [f64; 2]| {
+        let beside = [mirror[0], mirror[1] + 0.5];
+        match free.basis.node_number(&beside) {
+            Some(_) => vec![(mirror, 0.75), (beside, 0.25)],
+            None => vec![(mirror, 1.0)],
+        }
+    };
+    for slides in [false, true] {
+        let act = || Boundaries::new(Vec::new(), Vec::new()).with_surfaces(vec![surface(&free, slides, sources)]);
+        let once = constrained::<Quadratic, 3>(act());
+        let relative = |node: &VelocityNode<2>| [node.velocity()[0] - 0.2, node.velocity()[1] + 0.1];
+        let energy = |nodes: &[VelocityNode<2>]| -> f64 {
+            nodes
+                .iter()
+                .map(|node| node.mass() * relative(node).iter().map(|c| c * c).sum::<f64>())
+                .sum()
+        };
+        assert!(energy(&once.after) < energy(&once.before));
+        let at = |x: &[f64; 2]| relative(&once.after[once.basis.node_number(x).expect("active") as usize]);
+        let mut compared = 0;
+        for image in surface(&once, slides, sources).images {
+            if image.sources.iter().any(|(x, _)| once.basis.node_number(x).is_none()) {
+                continue;
+            }
+            let own = at(&image.node.position);
+            for (a, sign) in [(0, -1.0), (1, if slides { 1.0 } else { -1.0 })] {
+                let mirror: f64 = image.sources.iter().map(|(x, share)| share * at(x)[a]).sum();
+                assert!((own[a] - sign * mirror).abs() < 1e-12);
+            }
+            compared += 1;
+        }
+        assert!(compared > 3, "{compared}");
+        let motion = GridMotion {
+            positions: &once.positions,
+            extents: Extents::default(),
+            time: 0.0,
+            time_step: 0.1,
+            forces: true,
+        };
+        let mut twice = once.after.clone();
+        act().constrain(&once.basis, &motion, &mut twice);
+        for (first, second) in once.after.iter().zip(&twice) {
+            for a in 0..2 {
+                assert!((first.velocity()[a] - second.velocity()[a]).abs() < 1e-11, "{slides}");
+            }
+        }
+    }
+}
+
+#[test]
+fn shares_of_images_are_checked() {
+    let field = constrained::<Quadratic, 3>(Boundaries::new(Vec::new(), Vec::new()));
+    for share in [-0.1, 1.5, f64::NAN] {
+        let surface = surface(&field, false, |mirror| vec![(mirror, share)]);
+        let boundaries = Boundaries::new(Vec::new(), Vec::new()).with_surfaces(vec![surface]);
+        let message = boundaries.check().expect_err("refused").to_string();
+        assert!(message.contains("share of an image"), "{message}");
     }
 }
 

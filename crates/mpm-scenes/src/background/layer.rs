@@ -1,26 +1,37 @@
 //! The cells around a mesh.
 
+use std::collections::BTreeMap;
+
 use mpm_mesh::SimplexMesh;
 use mpm_mesh::generate::{GenerationError, with_mirrored_layer, with_outer_layer};
+use mpm_tensor::vector::{accumulate, dot, norm, scale, subtract};
 
-use crate::scene::{Scene, WallCondition};
+use super::named_facets;
+use crate::scene::{FacetCondition, Scene, WallCondition};
 use crate::shape::Bounds;
 use crate::{SceneFault, plane};
 
-/// The mesh with the images of its cells behind the walls that it ends at, and with other cells around the rest of its boundary.
+/// The mesh with the images of its cells behind the walls and the plane groups of facets that it ends at, and with other cells around the rest of its boundary.
 ///
-/// Behind a wall that nothing leaves (fixed, prescribed, sliding) nodes are tied to their images, for which there have to be some.
+/// Behind what nothing leaves (fixed, prescribed, sliding) nodes are tied to their images, for which there have to be some.
 pub(super) fn around<const D: usize>(
     scene: &Scene,
     inner: &SimplexMesh<D>,
     room: &Bounds<D>,
+    groups: &BTreeMap<String, Vec<u32>>,
 ) -> Result<SimplexMesh<D>, SceneFault> {
     let refused =
         |error: GenerationError| SceneFault::value("mesh.outer_layer", true, format!("false for this mesh: {error}"));
     let mut whole = inner.clone();
+    let mut planes = Vec::new();
     let walls = scene.walls.iter().enumerate();
     for (index, wall) in walls.filter(|(_, wall)| wall.condition != WallCondition::Friction) {
-        let (point, normal) = plane::build(room, index, wall)?;
+        planes.push(plane::build(room, index, wall)?);
+    }
+    let holds = |condition| !matches!(condition, FacetCondition::Friction | FacetCondition::Traction);
+    let held = scene.facets.iter().filter(|table| holds(table.condition));
+    planes.extend(held.filter_map(|table| plane_of(inner, groups.get(&table.group)?)));
+    for (point, normal) in planes {
         if let Some(mirrored) = with_mirrored_layer(&whole, &point, &normal).map_err(refused)? {
             whole = mirrored;
         }
@@ -30,4 +41,26 @@ pub(super) fn around<const D: usize>(
         whole = with_outer_layer(&whole).map_err(refused)?.0;
     }
     Ok(whole)
+}
+
+/// Facets whose normals differ by less, and whose vertices are nearer to a plane in units of the longest edge, are in it.
+const IN_THE_PLANE: f64 = 1e-9;
+
+/// The plane that all of some facets of the boundary lie in, if they do: a point, and the unit normal into the mesh.
+fn plane_of<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> Option<([f64; D], [f64; D])> {
+    let (mut sum, mut area) = ([0.0; D], 0.0);
+    for facet in named_facets(inner, facets) {
+        accumulate(&mut sum, -facet.area, &facet.normal);
+        area += facet.area;
+    }
+    let length = norm(&sum);
+    if !(length > (1.0 - IN_THE_PLANE) * area) {
+        return None;
+    }
+    let normal = scale(&sum, 1.0 / length);
+    let position = |vertex: u32| inner.vertices()[vertex as usize];
+    let point = position(*facets.first()?);
+    let limit = IN_THE_PLANE * inner.edge_lengths().longest;
+    let in_plane = |&vertex: &u32| dot(&normal, &subtract(&position(vertex), &point)).abs() <= limit;
+    facets.iter().all(in_plane).then_some((point, normal))
 }

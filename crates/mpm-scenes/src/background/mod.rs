@@ -2,6 +2,7 @@
 
 mod generate;
 mod layer;
+mod named_facets;
 
 use std::collections::BTreeMap;
 
@@ -13,6 +14,7 @@ use crate::values::vector;
 use crate::{SceneFault, rotation};
 
 pub(crate) use generate::of_shape;
+pub(crate) use named_facets::{facet_keys, named_facets};
 
 /// The background of a scene.
 pub(crate) enum Background<const D: usize> {
@@ -69,7 +71,7 @@ impl<const D: usize> Background<D> {
         } = named;
         let room = domain.unwrap_or_else(|| Bounds::around(inner.vertices()));
         let whole = if table.outer_layer {
-            layer::around(scene, &inner, &room)?
+            layer::around(scene, &inner, &room, &groups)?
         } else {
             inner.clone()
         };

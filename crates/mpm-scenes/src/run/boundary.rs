@@ -76,15 +76,15 @@ pub(super) fn build<const D: usize>(
         obstacles.push(obstacle(shape, contact, velocity));
     }
     let Tagged {
+        surfaces,
         obstacles: tagged,
-        mut prescribed,
         forces,
     } = tagged::build(scene, background)?;
     obstacles.extend(tagged);
     let held = HeldRegion::<D>::of(scene)?.into_iter();
-    prescribed.extend(held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>));
-    let boundaries = Boundaries::new(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed);
-    let boundaries = boundaries.with_forces(forces);
+    let prescribed = held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>);
+    let boundaries = Boundaries::new(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed.collect());
+    let boundaries = boundaries.with_surfaces(surfaces).with_forces(forces);
     Ok((boundaries, MovingObstacles(moving)))
 }
 

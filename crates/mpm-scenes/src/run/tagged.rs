@@ -1,13 +1,13 @@
 //! Conditions on named facets of a mesh, as conditions on its vertices.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
-use mpm_core::{Contact, NodeForces, Obstacle, PrescribedVelocity, SignedDistance};
-use mpm_mesh::{BoundaryFacet, MeshBasis, SimplexMesh};
+use mpm_core::{Contact, HeldNode, HeldSurface, ImageNode, NodeForces, Obstacle, SignedDistance};
+use mpm_mesh::{BoundaryFacet, CellSearch, MeshBasis, SimplexMesh};
 use mpm_tensor::vector as algebra;
 
 use super::dispatch;
-use crate::background::Background;
+use crate::background::{Background, facet_keys, named_facets};
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::{vector, within};
@@ -23,8 +23,8 @@ fn bits<const D: usize>(x: &[f64; D]) -> [u64; D] {
 /// A surface that stands at vertices and nowhere else, with a unit normal into the mesh at each. Particles meet the boundary of the mesh.
 struct AtVertices<const D: usize> {
     normals: ByPosition<D>,
-    /// Where material may leave, as far as particles of a cell's size can be and touch it.
-    boundary: Option<(MeshOutside<D>, f64)>,
+    /// The boundary, as far as particles of a cell's size can be and touch it.
+    boundary: (MeshOutside<D>, f64),
 }
 
 impl<const D: usize> SignedDistance<D> for AtVertices<D> {
@@ -37,10 +37,8 @@ impl<const D: usize> SignedDistance<D> for AtVertices<D> {
     }
 
     fn distance_of_particle(&self, x: &[f64; D]) -> f64 {
-        let near = self
-            .boundary
-            .as_ref()
-            .and_then(|(boundary, reach)| boundary.closer_than(x, *reach));
+        let (boundary, reach) = &self.boundary;
+        let near = boundary.closer_than(x, *reach);
         near.map_or(f64::INFINITY, |(distance, _)| distance)
     }
 
@@ -49,21 +47,12 @@ impl<const D: usize> SignedDistance<D> for AtVertices<D> {
     }
 }
 
-/// Velocities of vertices.
-struct Given<const D: usize>(ByPosition<D>);
-
-impl<const D: usize> PrescribedVelocity<D> for Given<D> {
-    fn velocity(&self, x: &[f64; D], _: f64, _: f64) -> Option<[f64; D]> {
-        self.0.get(&bits(x)).copied()
-    }
-}
-
 /// What the facets of a scene do.
 pub(super) struct Tagged<const D: usize> {
-    /// Those that hold, let slide or rub.
+    /// Those that hold, move, or let slide.
+    pub surfaces: Vec<HeldSurface<D>>,
+    /// Those that rub.
     pub obstacles: Vec<Obstacle<D>>,
-    /// Those that move the body.
-    pub prescribed: Vec<Box<dyn PrescribedVelocity<D>>>,
     /// Tractions as forces at nodes.
     pub forces: Vec<NodeForces<D>>,
 }
@@ -74,8 +63,8 @@ pub(super) struct Tagged<const D: usize> {
 /// [`SceneFault::Value`] for a group that the mesh does not have, and for tables that [`Scene::read`] refuses.
 pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -> Result<Tagged<D>, SceneFault> {
     let mut tagged = Tagged {
+        surfaces: Vec::new(),
         obstacles: Vec::new(),
-        prescribed: Vec::new(),
         forces: Vec::new(),
     };
     for (index, table) in scene.facets.iter().enumerate() {
@@ -90,27 +79,42 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
         let expected = "a group with facets: the file names this one, and no element is in it";
         within(&field("group"), &table.group, !facets.is_empty(), expected)?;
         let holds = matches!(table.condition, FacetCondition::Fixed | FacetCondition::Prescribed);
-        let outer = named(inner, facets).count();
+        let outer = named_facets(inner, facets).count();
         let expected = "a group with facets of the boundary: the others have no normal, and the condition acts on none";
         within(&field("group"), &table.group, holds || outer > 0, expected)?;
-        let inside = keys::<D>(facets).len() - outer;
+        let inside = facet_keys::<D>(facets).len() - outer;
         let expected = format!(
             "a group of facets of the boundary alone: {inside} are inside the mesh, have no normal, and the condition does not act there"
         );
         within(&field("group"), &table.group, holds || inside == 0, &expected)?;
-        let normals = || normals(inner, whole, facets);
-        let contact = match table.condition {
-            FacetCondition::Fixed => Contact::Stick,
-            FacetCondition::Slip => Contact::Slip,
-            FacetCondition::Friction => Contact::Separate {
-                friction: table.friction.unwrap_or(0.0),
-            },
+        let normals = vertex_normals(inner, facets);
+        let mut surface = |slides, velocity: &dyn Fn(&[f64; D]) -> [f64; D]| {
+            tagged
+                .surfaces
+                .push(held(inner.vertices().len(), whole, &normals, slides, velocity));
+        };
+        match table.condition {
+            FacetCondition::Fixed => surface(false, &|_| [0.0; D]),
+            FacetCondition::Slip => surface(true, &|_| [0.0; D]),
             FacetCondition::Prescribed => {
                 let velocity = velocity::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
-                let normals = normals();
-                let given = normals.keys().map(|key| (*key, velocity.at(&key.map(f64::from_bits))));
-                tagged.prescribed.push(Box::new(Given(given.collect())));
-                continue;
+                surface(false, &|x| velocity.at(x));
+            }
+            FacetCondition::Friction => {
+                let friction = table.friction.unwrap_or(0.0);
+                let reach = 2.0 * inner.edge_lengths().longest;
+                let own = normals.iter().map(|(&vertex, normal)| (vertex, *normal));
+                let behind = behind(whole, inner.vertices().len(), &normals);
+                let all = own.chain(behind.into_iter().map(|(vertex, base)| (vertex, normals[&base])));
+                let position = |vertex: u32| bits(&whole.vertices()[vertex as usize]);
+                tagged.obstacles.push(Obstacle {
+                    shape: Box::new(AtVertices {
+                        normals: all.map(|(vertex, normal)| (position(vertex), normal)).collect(),
+                        boundary: (MeshOutside::new(inner, reach), reach),
+                    }),
+                    contact: Contact::Separate { friction },
+                    velocity: [0.0; D],
+                });
             }
             FacetCondition::Traction => {
                 let traction = table
@@ -123,20 +127,8 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
                     forces: forces(&dispatch::mesh_basis(scene, whole)?, inner, facets, load),
                     ramp: table.ramp.unwrap_or(0.0),
                 });
-                continue;
             }
-        };
-        tagged.obstacles.push(Obstacle {
-            shape: Box::new(AtVertices {
-                normals: normals(),
-                boundary: matches!(contact, Contact::Separate { .. }).then(|| {
-                    let reach = 2.0 * inner.edge_lengths().longest;
-                    (MeshOutside::new(inner, reach), reach)
-                }),
-            }),
-            contact,
-            velocity: [0.0; D],
-        });
+        }
     }
     Ok(tagged)
 }
@@ -155,25 +147,6 @@ fn group<'a>(
         .ok_or_else(|| SceneFault::value(field, &table.group, expected))
 }
 
-/// The vertices of a facet in ascending order.
-fn key(facet: &[u32]) -> Vec<u32> {
-    let mut facet = facet.to_vec();
-    facet.sort_unstable();
-    facet
-}
-
-/// The facets of a group, each once.
-fn keys<const D: usize>(facets: &[u32]) -> HashSet<Vec<u32>> {
-    facets.chunks_exact(D.max(1)).map(key).collect()
-}
-
-/// The facets of the boundary that a group names, by any order of their vertices.
-fn named<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> impl Iterator<Item = BoundaryFacet<D>> {
-    let named = keys::<D>(facets);
-    let boundary = inner.boundary().into_iter();
-    boundary.filter(move |facet| named.contains(&key(&facet.vertices)))
-}
-
 /// f_i = Σ_v w_i(x_v) Σ_f t_f A_f / D over the vertices v of facets f with tractions t: ∫ w_i t dA with w_i between vertices by the hat functions of the boundary. Since Σ w_i = 1 and
 /// Σ w_i x_i = x_v, the force and its moments of first order are those of the facets.
 fn forces<const D: usize>(
@@ -183,7 +156,7 @@ fn forces<const D: usize>(
     load: impl Fn(&BoundaryFacet<D>) -> [f64; D],
 ) -> Vec<([f64; D], [f64; D])> {
     let mut at_vertices: BTreeMap<u32, [f64; D]> = BTreeMap::new();
-    for facet in named(inner, facets) {
+    for facet in named_facets(inner, facets) {
         let load = load(&facet);
         for vertex in facet.vertices {
             algebra::accumulate(
@@ -208,40 +181,109 @@ fn forces<const D: usize>(
     loaded.map(|(vertex, force)| (position(vertex), force)).collect()
 }
 
-/// The unit normals into the mesh at the vertices of some facets, means of those of the facets there by area. Vertices of the layer around the mesh have that of the nearest
-/// vertex of the mesh that they are joined to, if that is one of these.
-fn normals<const D: usize>(inner: &SimplexMesh<D>, whole: &SimplexMesh<D>, facets: &[u32]) -> ByPosition<D> {
-    let mut sums: HashMap<u32, [f64; D]> = facets.iter().map(|&vertex| (vertex, [0.0; D])).collect();
-    for facet in named(inner, facets) {
+/// The unit normals into the mesh at the vertices of some facets, means of those of the facets there by area; 0 where all facets are inside the mesh.
+fn vertex_normals<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> BTreeMap<u32, [f64; D]> {
+    let mut normals: BTreeMap<u32, [f64; D]> = facets.iter().map(|&vertex| (vertex, [0.0; D])).collect();
+    for facet in named_facets(inner, facets) {
         for vertex in facet.vertices {
-            algebra::accumulate(sums.entry(vertex).or_insert([0.0; D]), -facet.area, &facet.normal);
+            algebra::accumulate(normals.entry(vertex).or_insert([0.0; D]), -facet.area, &facet.normal);
         }
     }
-    let unit = |sum: &[f64; D]| {
-        let length = algebra::norm(sum);
+    for normal in normals.values_mut() {
+        let length = algebra::norm(normal);
         if length > 0.0 {
-            sum.map(|c| c / length)
-        } else {
-            [0.0; D]
-        }
-    };
-    let own = inner.vertices().len();
-    let (vertices, neighbours) = (whole.vertices(), whole.vertex_neighbours());
-    let mut normals: ByPosition<D> = HashMap::new();
-    for (vertex, x) in (0u32..).zip(vertices) {
-        let source = if (vertex as usize) < own {
-            Some(vertex)
-        } else {
-            let joined = neighbours.get(vertex as usize).iter().copied();
-            let distance = |other: &u32| algebra::distance_squared(&vertices[*other as usize], x);
-            let joined = joined.filter(|&other| (other as usize) < own);
-            joined.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        };
-        if let Some(sum) = source.and_then(|source| sums.get(&source)) {
-            normals.insert(bits(x), unit(sum));
+            *normal = algebra::scale(normal, 1.0 / length);
         }
     }
     normals
+}
+
+/// The vertices of the layer, from number `own` on, whose nearest vertex of the mesh that they are joined to is one of these; with that one.
+fn behind<const D: usize>(whole: &SimplexMesh<D>, own: usize, bases: &BTreeMap<u32, [f64; D]>) -> Vec<(u32, u32)> {
+    let (vertices, neighbours) = (whole.vertices(), whole.vertex_neighbours());
+    let base = |vertex: u32| {
+        let distance = |other: &u32| algebra::distance_squared(&vertices[*other as usize], &vertices[vertex as usize]);
+        let joined = neighbours.get(vertex as usize).iter().copied();
+        let joined = joined.filter(|&other| (other as usize) < own);
+        let nearest = joined.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        bases.contains_key(&nearest).then_some((vertex, nearest))
+    };
+    (own as u32..vertices.len() as u32).filter_map(base).collect()
+}
+
+/// A node of the layer this near to the plane of facets, as a share of its distance from their vertex, is in it; above it is beside the facets, not behind.
+const IN_THE_PLANE: f64 = 1e-6;
+
+/// Barycentric coordinates below are those of a point on a face.
+const ON_A_FACE: f64 = 1e-9;
+
+/// The vertices around a point with their barycentric coordinates, those of a face where it is on one; none outside of the mesh.
+fn shares<const D: usize>(mesh: &SimplexMesh<D>, search: &CellSearch<D>, x: &[f64; D]) -> Vec<(u32, f64)> {
+    let Some(place) = search.locate(x, None) else {
+        return Vec::new();
+    };
+    let first = 1.0 - place.barycentric.iter().sum::<f64>();
+    let all = mesh
+        .cell(place.cell as usize)
+        .iter()
+        .copied()
+        .zip(std::iter::once(first).chain(place.barycentric));
+    let kept: Vec<(u32, f64)> = all.filter(|&(_, share)| share > ON_A_FACE).collect();
+    let total: f64 = kept.iter().map(|(_, share)| share).sum();
+    kept.into_iter()
+        .map(|(vertex, share)| (vertex, share / total))
+        .collect()
+}
+
+/// The surface of facets with these normals at their vertices, and the nodes of the layer behind them as images of what is before.
+fn held<const D: usize>(
+    own: usize,
+    whole: &SimplexMesh<D>,
+    normals: &BTreeMap<u32, [f64; D]>,
+    slides: bool,
+    velocity: &dyn Fn(&[f64; D]) -> [f64; D],
+) -> HeldSurface<D> {
+    let position = |vertex: u32| whole.vertices()[vertex as usize];
+    let node = |position: [f64; D], normal: &[f64; D], surface: &[f64; D]| HeldNode {
+        position,
+        normal: *normal,
+        velocity: velocity(surface),
+    };
+    let mut on_surface: Vec<_> = normals
+        .iter()
+        .map(|(&vertex, normal)| node(position(vertex), normal, &position(vertex)))
+        .collect();
+    let height = |vertex: u32, base: u32| {
+        let offset = algebra::subtract(&position(vertex), &position(base));
+        (algebra::dot(&offset, &normals[&base]), algebra::norm(&offset))
+    };
+    let mut outside = behind(whole, own, normals);
+    outside.retain(|&(vertex, base)| {
+        let (height, distance) = height(vertex, base);
+        if height.abs() <= IN_THE_PLANE * distance {
+            on_surface.push(node(position(vertex), &normals[&base], &position(vertex)));
+        }
+        height < -IN_THE_PLANE * distance
+    });
+    let search = CellSearch::new(whole.clone());
+    let images = outside.iter().map(|&(vertex, base)| {
+        let (x, normal) = (position(vertex), &normals[&base]);
+        let (height, _) = height(vertex, base);
+        let mut sources = shares(whole, &search, &algebra::add_scaled(&x, -2.0 * height, normal));
+        // What is an image itself says nothing.
+        let is_image = |vertex: u32| outside.binary_search_by_key(&vertex, |&(vertex, _)| vertex).is_ok();
+        if sources.iter().any(|&(vertex, _)| is_image(vertex)) {
+            sources.clear();
+        }
+        ImageNode {
+            node: node(x, normal, &algebra::add_scaled(&x, -height, normal)),
+            sources: sources
+                .into_iter()
+                .map(|(vertex, share)| (position(vertex), share))
+                .collect(),
+        }
+    });
+    HeldSurface::new(on_surface, images.collect(), slides)
 }
 
 #[cfg(test)]
@@ -264,28 +306,40 @@ mod tests {
         (inner, whole, rim)
     }
 
-    /// A patch test: with a linear field at the nodes inside and prescribed at the rim, velocity and gradient are that field's at every point up to the curved
-    /// boundary, since all nodes there are inside or at the rim or behind it.
+    /// A patch test: with a linear field at the nodes inside, prescribed at the rim and by images behind it, velocity and gradient are that field's at every point up to the curved
+    /// boundary.
     #[test]
     fn a_linear_field_is_exact_up_to_a_curved_boundary() {
         let (inner, whole, rim) = with_rim();
         let gradient = Matrix([[0.3, -1.2], [0.7, 0.4]]);
         let field = |x: &[f64; 2]| algebra::add(&gradient.apply(x), &[0.5, -0.25]);
-        let keys = normals(&inner, &whole, &rim);
-        let rim = Given(keys.keys().map(|key| (*key, field(&key.map(f64::from_bits)))).collect());
-        let own: HashSet<[u64; 2]> = inner.vertices().iter().map(bits).collect();
+        let surface = held(
+            inner.vertices().len(),
+            &whole,
+            &vertex_normals(&inner, &rim),
+            false,
+            &field,
+        );
+        let mut nodes: ByPosition<2> = inner.vertices().iter().map(|x| (bits(x), field(x))).collect();
+        nodes.extend(surface.held.iter().map(|held| (bits(&held.position), held.velocity)));
+        let behind = surface.images.iter().map(|ImageNode { node, sources }| {
+            assert!(!sources.is_empty(), "{:?} has no mirror point", node.position);
+            let mut image = algebra::scale(&node.velocity, 2.0);
+            for (x, share) in sources {
+                algebra::accumulate(&mut image, -share, &nodes[&bits(x)]);
+            }
+            (bits(&node.position), image)
+        });
+        let behind: Vec<_> = behind.collect();
+        assert_eq!(behind.len(), whole.vertices().len() - inner.vertices().len());
+        nodes.extend(behind);
         let basis = MeshBasis::new(&whole).expect("a basis");
         for k in 0..400 {
             let (radius, angle) = ((f64::from(k) / 400.0).sqrt() * 0.985, 2.4 * f64::from(k));
             let x = [radius * angle.cos(), radius * angle.sin()];
             let (mut velocity, mut rate) = ([0.0; 2], Matrix::ZERO);
             for weight in basis.weights_at(&x).expect("inside") {
-                let node = basis.mesh().vertices()[weight.vertex as usize];
-                let given = rim.velocity(&node, 0.0, 1.0);
-                let v = given.unwrap_or_else(|| {
-                    assert!(own.contains(&bits(&node)), "{node:?} is behind the rim");
-                    field(&node)
-                });
+                let v = nodes[&bits(&basis.mesh().vertices()[weight.vertex as usize])];
                 algebra::accumulate(&mut velocity, weight.entry.weight, &v);
                 rate += Matrix::outer(&v, &weight.entry.gradient);
             }
@@ -316,13 +370,21 @@ mod tests {
     #[test]
     fn normals_of_a_disk_point_at_its_centre_also_in_the_layer() {
         let (inner, whole, rim) = with_rim();
-        let normals = normals(&inner, &whole, &rim);
-        let outside = whole.vertices().len() - inner.vertices().len();
-        assert_eq!(normals.len(), rim.len() / 2 + outside);
-        for (key, normal) in &normals {
-            let x = key.map(f64::from_bits);
-            let cosine = -algebra::dot(normal, &x) / algebra::norm(&x);
-            assert!(cosine > 0.98, "{x:?}: {normal:?}");
+        let surface = held(
+            inner.vertices().len(),
+            &whole,
+            &vertex_normals(&inner, &rim),
+            true,
+            &|_| [0.0; 2],
+        );
+        assert_eq!(surface.held.len(), rim.len() / 2);
+        for node in surface
+            .held
+            .iter()
+            .chain(surface.images.iter().map(|image| &image.node))
+        {
+            let cosine = -algebra::dot(&node.normal, &node.position) / algebra::norm(&node.position);
+            assert!(cosine > 0.98, "{node:?}");
         }
     }
 }
