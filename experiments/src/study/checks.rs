@@ -68,13 +68,21 @@ pub fn fitting(field: &str, method: &MethodSpecification) -> Result<Method, Comm
 
 /// The cases; refuses lists of which two entries make the same one.
 pub fn distinct<W>(field: &str, cases: Vec<Case<W>>) -> Result<Vec<Case<W>>, CommandError> {
-    distinct_names(field, cases.iter().map(|case| case.id().to_owned())).map(|()| cases)
+    distinct_names(field, cases.iter().map(Case::id), "").map(|()| cases)
 }
 
-/// Refuses lists that give two cases of the same name.
-pub fn distinct_names(field: &str, names: impl IntoIterator<Item = String>) -> Result<(), CommandError> {
-    let (mut known, mut names) = (HashSet::new(), names.into_iter());
-    names.try_for_each(|name| holds(known.insert(name.clone()), field, || format!("two cases are `{name}`")))
+/// Refuses lists in which two have the same name, with an advice.
+pub fn distinct_names<S: ToString>(
+    field: &str,
+    names: impl Iterator<Item = S>,
+    advice: &str,
+) -> Result<(), CommandError> {
+    let mut known = HashSet::new();
+    for name in names.map(|name| name.to_string()) {
+        let otherwise = format!("two are called `{name}`{advice}");
+        holds(known.insert(name), field, || otherwise)?;
+    }
+    Ok(())
 }
 
 /// The sizes of a list, small ones first.
