@@ -68,21 +68,22 @@ pub fn fitting(field: &str, method: &MethodSpecification) -> Result<Method, Comm
 
 /// The cases; refuses lists of which two entries make the same one.
 pub fn distinct<W>(field: &str, cases: Vec<Case<W>>) -> Result<Vec<Case<W>>, CommandError> {
-    distinct_names(field, cases.iter().map(Case::id), "").map(|()| cases)
+    distinct_names(field, cases.iter().map(|case| case.id().to_owned())).map(|()| cases)
 }
 
-/// Refuses lists in which two have the same name, with an advice.
-pub fn distinct_names<S: ToString>(
-    field: &str,
-    names: impl Iterator<Item = S>,
-    advice: &str,
-) -> Result<(), CommandError> {
+/// Refuses lists that give two cases of the same name.
+pub fn distinct_names(field: &str, names: impl IntoIterator<Item = String>) -> Result<(), CommandError> {
+    let (mut known, mut names) = (HashSet::new(), names.into_iter());
+    names.try_for_each(|name| holds(known.insert(name.clone()), field, || format!("two cases are `{name}`")))
+}
+
+/// Refuses methods of which two have the same label.
+pub fn distinct_labels(methods: &[MethodSpecification]) -> Result<(), CommandError> {
     let mut known = HashSet::new();
-    for name in names.map(|name| name.to_string()) {
-        let otherwise = format!("two are called `{name}`{advice}");
-        holds(known.insert(name), field, || otherwise)?;
-    }
-    Ok(())
+    MethodSpecification::labels(methods).try_for_each(|label| {
+        let otherwise = || format!("two are called `{label}`; give one of them a `label` of its own");
+        holds(known.insert(label), "methods", otherwise)
+    })
 }
 
 /// The sizes of a list, small ones first.

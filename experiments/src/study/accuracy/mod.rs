@@ -6,6 +6,7 @@
 mod figure;
 mod report;
 
+use super::checks::distinct_labels;
 use super::gaussian_runs::{self, Setting};
 use super::prelude::*;
 
@@ -33,8 +34,7 @@ impl Study for Accuracy {
     /// The cases, dimension by dimension, few particles first.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, dims, particles, methods);
-        let labels = MethodSpecification::labels(&self.methods);
-        distinct_names("methods", labels, "; give one of them a `label` of its own")?;
+        distinct_labels(&self.methods)?;
         let mut cases = Vec::new();
         for &dim in &self.dims {
             for &particles in &self.particles {

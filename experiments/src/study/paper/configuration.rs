@@ -159,7 +159,7 @@ impl Paper {
         for setting in &settings {
             setting.check(&table)?;
         }
-        distinct_names(&table, settings.iter().map(Setting::id), "")?;
+        distinct_names(&table, settings.iter().map(Setting::id))?;
         Ok(settings)
     }
 
