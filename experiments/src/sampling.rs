@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use parvi::{Certificate, Method, Observer, Run, Samples, TracePoint};
-use parvi_targets::CatalogueTarget;
+use parvi_targets::{CatalogueTarget, Frame};
 
 use crate::CommandError;
 use crate::dispatch::on_target;
@@ -128,7 +128,7 @@ pub fn sample(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, CommandError> {
-    on_target!(target, target, D => sample_target::<D>(target.as_ref(), method, run, observer))
+    on_target!(target, target, D => sample_target::<D>(target.as_ref(), &target.frame(), method, run, observer))
 }
 
 /// What work with a target has given, unless the target has failed meanwhile: then everything rests on values that are none.
@@ -140,15 +140,16 @@ pub fn unless_failed<T, const D: usize>(
     target.fault().map_or(worked, failed)
 }
 
-/// Samples a target that is already built.
+/// Samples a target that is already built, in a frame.
 pub fn sample_target<const D: usize>(
-    target: &(dyn CatalogueTarget<D> + Sync),
+    target: &dyn CatalogueTarget<D>,
+    frame: &Frame<D>,
     method: &Method,
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, CommandError> {
     let begin = Instant::now();
-    let samples = parvi::sample::<D>(target, method, run, observer);
+    let samples = parvi::sample_in::<D>(target, frame, method, run, observer);
     let samples = unless_failed(target, samples.map_err(CommandError::from))?;
     let wall_seconds = begin.elapsed().as_secs_f64();
     let evidence = samples.log_evidence.zip(target.log_evidence());

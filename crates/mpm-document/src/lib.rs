@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod claim;
+mod fingerprint;
 mod offender;
 
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 pub use claim::claim;
+pub use fingerprint::fingerprint;
 
 /// A text that is no TOML, or not the document that was asked for: an unknown or missing key, a value of the wrong type.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -175,24 +175,17 @@ pub enum SceneFault {
 }
 
 /// What makes the time step of a body short.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StepLimit {
     /// Its velocity, of this size.
+    #[error("speed {0:e}")]
     Speed(f64),
     /// Its stiffness over its density: the speed of its waves.
+    #[error("wave speed {0:e}, by its stiffness and density")]
     WaveSpeed(f64),
     /// Its viscosity over its density.
+    #[error("highest viscosity over density")]
     Viscosity,
-}
-
-impl std::fmt::Display for StepLimit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Speed(speed) => write!(f, "speed {speed:e}"),
-            Self::WaveSpeed(speed) => write!(f, "wave speed {speed:e}, by its stiffness and density"),
-            Self::Viscosity => f.write_str("highest viscosity over density"),
-        }
-    }
 }
 
 impl SceneFault {

@@ -3,7 +3,6 @@
 mod background;
 mod error;
 pub mod fill;
-mod fingerprint;
 mod held;
 mod kinematics;
 pub mod law;

@@ -19,13 +19,11 @@ pub(crate) fn build<const D: usize>(
     let field = |key: &str| format!("walls[{index}].{key}");
     match (wall.axis, wall.side, &wall.point, &wall.normal) {
         (Some(name), Some(side), None, None) => {
-            let (axis, (border, inward)) = (
-                name.index(),
-                match side {
-                    Side::Lower => (&room.lower, 1.0),
-                    Side::Upper => (&room.upper, -1.0),
-                },
-            );
+            let axis = name.index();
+            let (border, inward) = match side {
+                Side::Lower => (&room.lower, 1.0),
+                Side::Upper => (&room.upper, -1.0),
+            };
             let expected = format!("one of the {D} axes of the scene");
             within(&field("axis"), name, axis < D, &expected)?;
             let position = finite(&field("position"), wall.position.unwrap_or(border[axis]))?;

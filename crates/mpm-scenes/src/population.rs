@@ -90,10 +90,8 @@ impl<const D: usize> Population<D> {
             .get(&body.material)
             .map_or(f64::NAN, |table| table.density());
         let total = self.positions.len() + filling.positions.len();
-        let (few, expected) = (
-            u32::try_from(total).is_ok(),
-            "so few that they can be numbered with 32 bits",
-        );
+        let few = u32::try_from(total).is_ok();
+        let expected = "so few that they can be numbered with 32 bits";
         within(&format!("bodies.{}", body.name), total, few, expected)?;
         self.velocities.extend(filling.positions.iter().map(|x| velocity.at(x)));
         self.positions.extend(&filling.positions);

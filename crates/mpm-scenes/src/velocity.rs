@@ -48,10 +48,8 @@ pub(crate) fn build<const D: usize>(
             wave_vector,
             phase,
         } => {
-            let (amplitude, waves) = (
-                vector_of("amplitude", amplitude)?,
-                vector_of("wave_vector", wave_vector)?,
-            );
+            let amplitude = vector_of("amplitude", amplitude)?;
+            let waves = vector_of("wave_vector", wave_vector)?;
             let phase = finite(&format!("{field}.phase"), *phase)?;
             InitialVelocity(Box::new(move |x| {
                 algebra::scale(&amplitude, (algebra::dot(&waves, x) + phase).sin())

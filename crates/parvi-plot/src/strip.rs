@@ -67,10 +67,8 @@ pub fn strip(plot: &StripPlot<'_>) -> Result<String, PlotError> {
     let clouds = plot.panels.iter().map(|panel| panel.particles.columns(2, 2));
     let clouds: Vec<Vec<Vec<f64>>> = clouds.collect::<Result<_, _>>()?;
     let columns = COLUMNS.min(plot.panels.len());
-    let (mut x, mut y) = (
-        scale(0, plot, &clouds, &reference)?,
-        scale(1, plot, &clouds, &reference)?,
-    );
+    let mut x = scale(0, plot, &clouds, &reference)?;
+    let mut y = scale(1, plot, &clouds, &reference)?;
     let shape = (y.span() / x.span()).clamp(0.6, 1.5);
     (x, y) = (x.widened(y.span() / shape), y.widened(x.span() * shape));
     // The ticks' labels need room that their number, which follows the height, decides; a first guess of it serves.

@@ -1,6 +1,5 @@
 //! The banana: a Gaussian bent along a parabola.
 
-use mpm_tensor::Matrix;
 use rand::Rng;
 
 use crate::error::{finite, positive};
@@ -99,10 +98,7 @@ impl CatalogueTarget<2> for Banana {
     its_own_source!(2);
 
     fn moments(&self) -> Option<Moments<2>> {
-        Some(Moments {
-            mean: [0.0; 2],
-            covariance: Matrix([[1.0, 0.0], [0.0, self.variance_of_second()]]),
-        })
+        Some(Moments::centred([1.0, self.variance_of_second()]))
     }
 
     /// The density is normalised.

@@ -1,6 +1,5 @@
 //! Long thin arms along every axis that cross at the origin.
 
-use mpm_tensor::Matrix;
 use rand::{Rng, RngExt};
 
 use crate::error::{at_least_two, positive};
@@ -119,10 +118,7 @@ impl<const D: usize> CatalogueTarget<D> for Cross<D> {
     its_own_source!(D);
 
     fn moments(&self) -> Option<Moments<D>> {
-        Some(Moments {
-            mean: [0.0; D],
-            covariance: Matrix::diagonal(&[self.variance(); D]),
-        })
+        Some(Moments::centred([self.variance(); D]))
     }
 
     /// The density is normalised.

@@ -1,6 +1,5 @@
 //! Neal's funnel: a variance that is itself a variable.
 
-use mpm_tensor::Matrix;
 use rand::Rng;
 
 use crate::error::{at_least_two, positive, within};
@@ -105,11 +104,8 @@ impl<const D: usize> CatalogueTarget<D> for Funnel<D> {
 
     fn moments(&self) -> Option<Moments<D>> {
         let square = self.width * self.width;
-        let variances = std::array::from_fn(|axis| if axis == 0 { square } else { (0.5 * square).exp() });
-        Some(Moments {
-            mean: [0.0; D],
-            covariance: Matrix::diagonal(&variances),
-        })
+        let variance = |axis| if axis == 0 { square } else { (0.5 * square).exp() };
+        Some(Moments::centred(std::array::from_fn(variance)))
     }
 
     /// The density is normalised.

@@ -2,7 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use mpm_tensor::Matrix;
 use rand::Rng;
 use statrs::function::gamma::gamma_ur;
 
@@ -151,10 +150,7 @@ impl CatalogueTarget<2> for Ring {
     its_own_source!(2);
 
     fn moments(&self) -> Option<Moments<2>> {
-        Some(Moments {
-            mean: [0.0; 2],
-            covariance: Matrix([[self.variance, 0.0], [0.0, self.variance]]),
-        })
+        Some(Moments::centred([self.variance; 2]))
     }
 
     /// The density is normalised.

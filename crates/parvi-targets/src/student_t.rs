@@ -1,6 +1,5 @@
 //! The multivariate Student t distribution.
 
-use mpm_tensor::Matrix;
 use rand::Rng;
 use rand_distr::{ChiSquared, Distribution};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -106,10 +105,7 @@ impl<const D: usize> CatalogueTarget<D> for StudentT<D> {
 
     fn moments(&self) -> Option<Moments<D>> {
         let nu = self.degrees_of_freedom;
-        (nu > 2.0).then(|| Moments {
-            mean: [0.0; D],
-            covariance: Matrix::diagonal(&[nu / (nu - 2.0); D]),
-        })
+        (nu > 2.0).then(|| Moments::centred([nu / (nu - 2.0); D]))
     }
 
     /// The density is normalised.

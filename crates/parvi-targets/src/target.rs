@@ -119,6 +119,16 @@ pub struct Moments<const D: usize> {
     pub covariance: Matrix<D>,
 }
 
+impl<const D: usize> Moments<D> {
+    /// Of a density about the origin whose coordinates are not correlated.
+    pub(crate) fn centred(variances: [f64; D]) -> Self {
+        Self {
+            mean: [0.0; D],
+            covariance: Matrix::diagonal(&variances),
+        }
+    }
+}
+
 /// A named mode of a multimodal density: points are assigned to the nearest centre in units of `width`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode<const D: usize> {

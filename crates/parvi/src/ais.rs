@@ -24,6 +24,6 @@ impl AisOptions {
             rounds: Some(0),
             ..MpmOptions::default()
         };
-        surveyed::sample_as_it_is(&options, &mut { task }, &mut Journal::none())
+        surveyed::sample_as_it_is(&options, &mut { task }, &mut Journal::default())
     }
 }

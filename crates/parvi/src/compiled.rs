@@ -16,7 +16,21 @@ pub fn sample<const D: usize>(
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Samples<D>, SampleError> {
-    (Compiled::of().sample)(target, method, run, observer)
+    sample_in(target, &target.frame(), method, run, observer)
+}
+
+/// As [`sample`], in a frame that says what else is known of the target's place and scales; [`Frame::identity`]: nothing.
+///
+/// # Errors
+/// As [`sample`].
+pub fn sample_in<const D: usize>(
+    target: &dyn CatalogueTarget<D>,
+    frame: &Frame<D>,
+    method: &Method,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Samples<D>, SampleError> {
+    (Compiled::of().sample)(target, frame, method, run, observer)
 }
 
 sampler! {
@@ -63,7 +77,7 @@ struct Compiled<const D: usize> {
 
 impl<const D: usize> Compiled<D> {
     const HERE: Self = Self {
-        sample: |target, method, run, observer| method.sample(target, &target.frame(), run, observer),
+        sample: |target, frame, method, run, observer| method.sample(target, frame, run, observer),
         mpm: mpm::sample,
         paper: paper::sample,
     };
@@ -71,9 +85,9 @@ impl<const D: usize> Compiled<D> {
 
 mpm_parallel::compiled_ahead!(Compiled);
 
-/// [`sample`].
+/// [`sample_in`].
 type Sample<const D: usize> =
-    fn(&dyn CatalogueTarget<D>, &Method, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
+    fn(&dyn CatalogueTarget<D>, &Frame<D>, &Method, &Run, &mut dyn Observer) -> Result<Samples<D>, SampleError>;
 
 /// [`MpmOptions::sample`].
 type SampleByMpm<const D: usize> = fn(&MpmOptions, Task<'_, D>) -> Result<Samples<D>, SampleError>;

@@ -1,7 +1,7 @@
 //! Samplers that condense a big sample into M points: Stein thinning and support points.
 
 use mpm_tensor::vector;
-use parvi_targets::CatalogueTarget;
+use parvi_targets::{CatalogueTarget, Frame};
 
 use crate::drive::finite;
 use crate::exact::exact_draws;
@@ -28,6 +28,7 @@ impl SteinThinningOptions {
     pub fn sample<const D: usize>(
         &self,
         target: &dyn CatalogueTarget<D>,
+        frame: &Frame<D>,
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
@@ -43,7 +44,7 @@ impl SteinThinningOptions {
                     particles: size,
                     ..run.clone()
                 };
-                options.sample(target, &target.frame(), &run, observer)?
+                options.sample(target, frame, &run, observer)?
             }
         };
         let mut scores = vec![[0.0; D]; size];
@@ -76,13 +77,14 @@ impl SteinThinningOptions {
 impl SupportPointsOptions {
     /// Draw the pool and M further points, and move these to their least energy distance from the pool.
     ///
-    /// Distances are taken with every axis in units of the target's frame, √C_aa, so that no axis drowns another.
+    /// Distances are taken with every axis in units of the frame, √C_aa, so that no axis drowns another.
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a target without exact draws, or the observer's stop.
     pub fn sample<const D: usize>(
         &self,
         target: &dyn CatalogueTarget<D>,
+        frame: &Frame<D>,
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Samples<D>, SampleError> {
@@ -90,7 +92,7 @@ impl SupportPointsOptions {
         let size = pool_size(self.pool_size, count)?;
         let steps = steps(self.steps, defaults::SUPPORT_POINTS_STEPS)?;
         let tolerance = not_negative("tolerance", self.tolerance)?;
-        let covariance = target.frame().covariance();
+        let covariance = frame.covariance();
         let scales: [f64; D] = std::array::from_fn(|a| covariance.0[a][a].sqrt());
         let scaled = |stream, count| -> Result<Vec<[f64; D]>, SampleError> {
             let draws = exact_draws("support-points", target, &mut run.generator(stream), count)?;

@@ -47,7 +47,7 @@ mod watching;
 
 pub use certificate::{Certificate, EstimatedMoment, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
-pub use compiled::sample;
+pub use compiled::{sample, sample_in};
 pub use exact::{independent_draws, sobol_points};
 pub use given::GivenParticles;
 pub use method::*;

@@ -126,7 +126,7 @@ impl<const D: usize> Job<'_, D> {
             watching: options.watch.map(Watching::new).transpose()?,
             internal_energy: Some(&stored),
         };
-        let driven = drive(body.as_mut(), self.frame, plan, &mut Journal::none(), observer)?;
+        let driven = drive(body.as_mut(), self.frame, plan, &mut Journal::default(), observer)?;
         let certificate = options.certificate.then(|| Certificate::of_scores(&driven, last_alpha));
         let moving = body.force().moving_evaluations;
         Ok(Samples {

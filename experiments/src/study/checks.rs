@@ -77,6 +77,15 @@ pub fn distinct_names(field: &str, names: impl IntoIterator<Item = String>) -> R
     names.try_for_each(|name| holds(known.insert(name.clone()), field, || format!("two cases are `{name}`")))
 }
 
+/// Refuses methods of which two have the same label.
+pub fn distinct_labels(methods: &[MethodSpecification]) -> Result<(), CommandError> {
+    let mut known = HashSet::new();
+    MethodSpecification::labels(methods).try_for_each(|label| {
+        let otherwise = || format!("two are called `{label}`; give one of them a `label` of its own");
+        holds(known.insert(label), "methods", otherwise)
+    })
+}
+
 /// The sizes of a list, small ones first.
 pub fn ascending<const LEAST: i64, const MOST: i64>(sizes: &[Bounded<LEAST, MOST>]) -> Vec<usize> {
     let mut sizes: Vec<usize> = sizes.iter().map(|size| size.get()).collect();

@@ -159,13 +159,9 @@ fn whole_numbers(value: Option<&Value>) -> Vec<u64> {
     numbers.filter_map(|number| u64::try_from(number).ok()).collect()
 }
 
-/// The 64-bit FNV-1a hash in hexadecimal digits.
+/// The fingerprint of a text in hexadecimal digits.
 pub fn fingerprint(text: &str) -> String {
-    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
-    for byte in text.bytes() {
-        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    }
-    format!("{hash:016x}")
+    format!("{:016x}", mpm_document::fingerprint(text.as_bytes()))
 }
 
 #[cfg(test)]

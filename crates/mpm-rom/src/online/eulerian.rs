@@ -182,11 +182,9 @@ impl<const D: usize> Eulerian<D> {
         let mut left = 0;
         for (place, (rest, inverse, outside)) in found.into_iter().enumerate() {
             let Sought { number, position } = self.sought[place];
-            let (x, gradient, v) = (
-                self.evaluation.positions[place],
-                self.evaluation.gradients[place],
-                self.evaluation.velocities[place],
-            );
+            let x = self.evaluation.positions[place];
+            let gradient = self.evaluation.gradients[place];
+            let v = self.evaluation.velocities[place];
             let reference = self.guesses[place];
             self.known[number] = None;
             if let Some(outside) = outside {

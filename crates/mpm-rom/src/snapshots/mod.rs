@@ -129,13 +129,8 @@ impl<const D: usize> Run<D> {
         }
         let mut before = f64::NEG_INFINITY;
         for (number, frame) in self.frames.iter().enumerate() {
-            let (frame_place, time) = (
-                Place {
-                    frame: Some(number),
-                    ..place
-                },
-                frame.time,
-            );
+            let (time, number) = (frame.time, Some(number));
+            let frame_place = Place { frame: number, ..place };
             if !(time > before && time.is_finite()) {
                 return Err(frame_place.refuse("time", time, "finite and later than that of the frame before"));
             }

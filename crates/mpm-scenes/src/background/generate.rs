@@ -3,6 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
+use mpm_document::fingerprint;
 use mpm_mesh::generate::{
     EdgeTarget, GenerationError, Refinement, Scatter, SizeField, ball, circle_outline, cuboid, cyclic_sizes,
     disk_outline, outlines, rectangle_outline, scattered, segments, slope, triangle_lattice, wavy_channel_outline,
@@ -12,7 +13,6 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
 use crate::SceneFault;
-use crate::fingerprint::fingerprint;
 use crate::rotation::Rotation;
 use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::body::Body;
 use super::budget::Budget;
-use super::checkpoint::{self, Place, Saved};
+use super::checkpoint::{self, Saved};
 use super::probe::Probe;
 use super::{Observer, Outcome, Progress, SimulationError, Summary, measure, snapshot};
 use crate::output::{SeriesFile, names, remove_file, remove_frames, vtu, write_index, write_validation, write_whole};
@@ -152,16 +152,14 @@ impl<'a, const D: usize> Driver<'a, D> {
     }
 
     fn write_checkpoint(&self) -> Result<(), SimulationError> {
-        let place = Place {
-            identity: checkpoint::identity(self.scene),
-            step: self.body.step,
-            time: self.body.motion.time(),
-            free_step: self.body.free_step,
-            rows: self.series.series().rows().len(),
-            mesh_contents: self.body.mesh_contents,
-            budget: self.body.budget.map(|budget| budget.save(&*self.body.motion)),
-        };
-        let saved = Saved::new(place, self.body.motion.particles());
+        let mut saved = Saved::of(self.body.motion.particles());
+        saved.identity = checkpoint::identity(self.scene);
+        saved.step = self.body.step;
+        saved.time = self.body.motion.time();
+        saved.free_step = self.body.free_step;
+        saved.rows = self.series.series().rows().len();
+        saved.mesh_contents = self.body.mesh_contents;
+        saved.budget = self.body.budget.map(|budget| budget.save(&*self.body.motion));
         checkpoint::write(&self.out.join(names::CHECKPOINT), &saved)
     }
 }

@@ -41,11 +41,7 @@ pub enum AxisName {
 impl AxisName {
     /// Its number, counted from 0.
     pub fn index(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-            Self::Z => 2,
-        }
+        self as usize
     }
 }
 

@@ -6,10 +6,8 @@ use crate::page::counted;
 /// Largest value minus the least, over that at the least x; NaN without points.
 fn relative_spread(series: &MeasuredSeries) -> f64 {
     let values = || series.points.iter().map(|point| point.value);
-    let (largest, least) = (
-        values().fold(f64::NEG_INFINITY, f64::max),
-        values().fold(f64::INFINITY, f64::min),
-    );
+    let largest = values().fold(f64::NEG_INFINITY, f64::max);
+    let least = values().fold(f64::INFINITY, f64::min);
     let finest = series.points.first().map_or(f64::NAN, |point| point.value);
     (largest - least) / finest.abs()
 }

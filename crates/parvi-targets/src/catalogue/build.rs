@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::info::{Dimensions, MAXIMUM_DIMENSION, Parameters};
-use super::making::data_path;
+use super::making::{data_path, no_dimension};
 use super::synthetic::synthetic_counts;
 use super::table::{make, target_info};
 use super::wells::wells;
@@ -20,11 +20,7 @@ use crate::{BoxedTarget, CountData, RegressionData, TargetError};
 pub fn dimension_of(name: &str, requested: Option<usize>, parameters: &Parameters) -> Result<usize, TargetError> {
     let info = target_info(name)?;
     info.check(parameters)?;
-    let not_allowed = |dimension, allowed| TargetError::DimensionNotAllowed {
-        target: name.to_owned(),
-        dimension,
-        allowed,
-    };
+    let not_allowed = |dimension, allowed| no_dimension(name, dimension, allowed);
     if let Some(dimension) = requested.filter(|dimension| !(1..=MAXIMUM_DIMENSION).contains(dimension)) {
         return Err(not_allowed(dimension, info.dimensions.in_words()));
     }

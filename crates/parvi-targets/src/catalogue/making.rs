@@ -1,6 +1,7 @@
 //! What makes targets of the catalogue.
 
 use std::any::Any;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::info::{Parameters, TargetInfo};
@@ -68,11 +69,29 @@ pub(crate) fn in_dimension<const D: usize, const E: usize>(
     let same: Box<dyn Any> = Box::new(target);
     same.downcast::<BoxedTarget<D>>()
         .map(|target| *target)
-        .map_err(|_| TargetError::DimensionNotAllowed {
-            target: name,
-            dimension: D,
-            allowed: E.to_string(),
-        })
+        .map_err(|_| no_dimension(&name, D, E.to_string()))
+}
+
+/// The error that a target does not exist in a dimension.
+pub(crate) fn no_dimension(target: &str, dimension: usize, allowed: String) -> TargetError {
+    TargetError::DimensionNotAllowed {
+        target: target.to_owned(),
+        dimension,
+        allowed,
+    }
+}
+
+/// Refuses a dimension beyond those in which a target exists.
+pub(crate) fn dimension_within(
+    target: &str,
+    dimension: usize,
+    allowed: RangeInclusive<usize>,
+) -> Result<(), TargetError> {
+    if allowed.contains(&dimension) {
+        return Ok(());
+    }
+    let (least, most) = (allowed.start(), allowed.end());
+    Err(no_dimension(target, dimension, format!("{least} to {most}")))
 }
 
 /// The data file, which the target needs.

@@ -5,6 +5,7 @@ use rand::Rng;
 use rand::RngExt;
 use rand_distr::Open01;
 
+use crate::catalogue::making::dimension_within;
 use crate::catalogue::schools_scale::{GivenScale, PRIOR_SCALE, ScaleMarginal, School};
 use crate::gaussian::{box_of_standard_deviations, normal_quantiles, standard_normal};
 use crate::special::{HALF_LOG_TWO_PI, log_cosh};
@@ -55,13 +56,7 @@ impl<const D: usize> Schools<D> {
     /// # Errors
     /// [`TargetError::DimensionNotAllowed`] unless 3 ≤ D ≤ 8.
     pub fn new() -> Result<Self, TargetError> {
-        if !(3..=MAXIMUM_DIMENSION).contains(&D) {
-            return Err(TargetError::DimensionNotAllowed {
-                target: "schools".to_owned(),
-                dimension: D,
-                allowed: format!("3 to {MAXIMUM_DIMENSION}"),
-            });
-        }
+        dimension_within("schools", D, 3..=MAXIMUM_DIMENSION)?;
         let marginal = ScaleMarginal::new(Self::data());
         let moments = moments_of(Self::data(), &marginal);
         let frame = Frame::new(moments.mean, moments.covariance)?;

@@ -4,6 +4,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 
+use super::making::dimension_within;
 use crate::{CountData, MAXIMUM_DIMENSION, TargetError};
 
 /// The rows of `poisson`.
@@ -26,13 +27,7 @@ const SEED: u64 = 1898;
 /// # Errors
 /// [`TargetError::DimensionNotAllowed`] unless 1 ≤ d ≤ 8.
 pub fn synthetic_counts(dimension: usize) -> Result<CountData, TargetError> {
-    if !(1..=MAXIMUM_DIMENSION).contains(&dimension) {
-        return Err(TargetError::DimensionNotAllowed {
-            target: "poisson".to_owned(),
-            dimension,
-            allowed: format!("1 to {MAXIMUM_DIMENSION}"),
-        });
-    }
+    dimension_within("poisson", dimension, 1..=MAXIMUM_DIMENSION)?;
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     let mut data = CountData::empty("synthetic counts", (1..dimension).map(|index| format!("x{index}")));
     for _ in 0..SYNTHETIC_COUNT_ROWS {

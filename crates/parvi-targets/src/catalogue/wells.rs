@@ -1,5 +1,6 @@
 //! The wells data: did households in Bangladesh change to a safer well?
 
+use super::making::dimension_within;
 use crate::{RegressionData, TargetError};
 
 /// 3,020 households of Araihazar; see `data/README.md` for the columns and the source.
@@ -29,13 +30,7 @@ const NAMES: [&str; WELLS_MAXIMUM_DIMENSION - 1] = [
 /// # Errors
 /// [`TargetError::DimensionNotAllowed`] unless 1 ≤ d ≤ 6; [`TargetError::DataNoRows`] for no rows.
 pub fn wells(dimension: usize, rows: Option<usize>) -> Result<RegressionData, TargetError> {
-    if !(1..=WELLS_MAXIMUM_DIMENSION).contains(&dimension) {
-        return Err(TargetError::DimensionNotAllowed {
-            target: "wells".to_owned(),
-            dimension,
-            allowed: format!("1 to {WELLS_MAXIMUM_DIMENSION}"),
-        });
-    }
+    dimension_within("wells", dimension, 1..=WELLS_MAXIMUM_DIMENSION)?;
     let file = RegressionData::from_csv_reader(WELLS.as_bytes(), "wells.csv")?;
     let names = NAMES[..dimension - 1].iter().map(|&name| name.to_owned());
     let mut data = RegressionData::empty("wells.csv", names);

@@ -64,10 +64,8 @@ impl Certificate {
 
     /// That particles are where log p is no number, if some are; nothing is known of the others.
     pub(crate) fn of_outside(log_densities: &[f64]) -> Option<Self> {
-        let (particles, of) = (
-            log_densities.iter().filter(|log| !log.is_finite()).count(),
-            log_densities.len(),
-        );
+        let particles = log_densities.iter().filter(|log| !log.is_finite()).count();
+        let of = log_densities.len();
         (particles > 0).then(|| Self {
             outcome: Outcome::Stalled(Doubt::Outside { particles, of }),
             moments: Vec::new(),

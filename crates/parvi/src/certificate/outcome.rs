@@ -17,9 +17,10 @@ pub enum Outcome {
 }
 
 /// What keeps particles at rest from being called converged. Axes count from 1.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Doubt {
     /// The scores say that the mean may be off.
+    #[error("the mean of x{axis} may be off by {error:.3} standard deviations")]
     Mean {
         /// Axis.
         axis: usize,
@@ -27,6 +28,7 @@ pub enum Doubt {
         error: f64,
     },
     /// The scores say that the standard deviation may be off.
+    #[error("the standard deviation of x{axis} may be off by {:.1} %", 100.0 * .error)]
     StandardDeviation {
         /// Axis.
         axis: usize,
@@ -34,6 +36,7 @@ pub enum Doubt {
         error: f64,
     },
     /// The scores leave so much of a coordinate or its square unexplained that its mean or spread may be off unnoticed.
+    #[error("the scores cannot vouch for the mean and spread of x{axis}: a share of {share:.2} is unexplained")]
     Unexplained {
         /// Axis.
         axis: usize,
@@ -41,11 +44,13 @@ pub enum Doubt {
         share: f64,
     },
     /// The score is not the gradient of the log density, by differences of this; only searches have followed it.
+    #[error("the score is not the gradient of log p: differences of log p say that it is {:.0} % off", 100.0 * .error)]
     Score {
         /// By how much, over its size.
         error: f64,
     },
     /// The score is not finite where log p is; only searches have followed it.
+    #[error("the score is NaN or infinite at {points} of {of} points of the pool at which log p is finite")]
     NoScore {
         /// Points of the pool at which it is not.
         points: usize,
@@ -53,6 +58,9 @@ pub enum Doubt {
         of: usize,
     },
     /// Along rays through points of the pool r^D p does not fall off, r the distance: the density may be improper.
+    #[error(
+        "log p does not fall off along {rays} of {of} rays, up to a thousand times the distance of particles: its mass lies farther away, or it is improper, without a finite integral"
+    )]
     Endless {
         /// Rays along which it does not.
         rays: usize,
@@ -60,53 +68,72 @@ pub enum Doubt {
         of: usize,
     },
     /// The residual is above that of independent draws.
+    #[error("the residual is {ratio:.2} of that of independent draws")]
     Residual {
         /// Residual over that of independent draws.
         ratio: f64,
     },
     /// The importance weights have a tail that no estimate can rest on.
+    #[error("the importance weights have a heavy tail, of shape {pareto_k:.2}, and more may have been missed")]
     HeavyTail {
         /// Shape k̂ of the tail.
         pareto_k: f64,
     },
     /// The log evidence is uncertain.
+    #[error("the log evidence has a standard error of {error:.2}")]
     Evidence {
         /// Its standard error.
         error: f64,
     },
     /// The pool is too small for so many particles.
+    #[error("the weighted pool has {variance:.2} of the variance of as many independent draws as there are particles")]
     Noise {
         /// Its variance over that of as many independent draws as there are particles.
         variance: f64,
     },
     /// Fresh points met what no kernel had covered.
+    #[error("fresh points met a mass of {mass:.3} that nothing had covered before, and more may have been missed")]
     Uncovered {
         /// Its mass.
         mass: f64,
     },
     /// The log density is no number at many points.
+    #[error("at {:.0} % of fresh points the log density was NaN or +∞: what mass is there, nobody knows", 100.0 * .share)]
     Undefined {
         /// Share of fresh points at which it is NaN or +∞.
         share: f64,
     },
     /// Independent parts of the pool are too far apart.
+    #[error(
+        "independent parts of the pool are {ratio:.1} times as far apart as their weights explain: one of them has missed what the others met"
+    )]
     Inconsistent {
         /// Their distance over what their weights explain.
         ratio: f64,
     },
     /// Searches still met pieces of late.
+    #[error(
+        "searches for other pieces ended after {quiet:.1} times the evaluations until the last piece was met: there may be more"
+    )]
     Searching {
         /// Evaluations since the last piece was met, over those before.
         quiet: f64,
     },
     /// Nothing has looked for other pieces of the target, of which the particles would know nothing.
+    #[error("without a survey nothing has looked for other pieces of the target")]
     NotSurveyed,
     /// A survey has met nothing that could be weighed; a body without one has moved from the start.
+    #[error(
+        "{evaluations} evaluations met nothing that could be weighed, and the particles are those of a body without a survey: begin nearer to the mass"
+    )]
     SurveyInVain {
         /// Evaluations of the survey.
         evaluations: u64,
     },
     /// Nothing has kept the particles where the target has mass: the score does not lead there.
+    #[error(
+        "log p is -inf or no number at {particles} of {of} particles: where it is, the score does not lead to the mass"
+    )]
     Outside {
         /// Particles at which log p is −∞, +∞ or NaN.
         particles: usize,
@@ -114,6 +141,7 @@ pub enum Doubt {
         of: usize,
     },
     /// The particles stand for p^α, and the scores judge p.
+    #[error("the particles stand for the density to the power of {alpha}, and the scores judge the density itself")]
     Tempered {
         /// α of the last steps.
         alpha: f64,
@@ -155,78 +183,6 @@ impl Outcome {
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Mean { axis, error } => {
-                write!(f, "the mean of x{axis} may be off by {error:.3} standard deviations")
-            }
-            Self::StandardDeviation { axis, error } => write!(
-                f,
-                "the standard deviation of x{axis} may be off by {:.1} %",
-                100.0 * error
-            ),
-            Self::Unexplained { axis, share } => write!(
-                f,
-                "the scores cannot vouch for the mean and spread of x{axis}: a share of {share:.2} is unexplained"
-            ),
-            Self::Score { error } => write!(
-                f,
-                "the score is not the gradient of log p: differences of log p say that it is {:.0} % off",
-                100.0 * error
-            ),
-            Self::NoScore { points, of } => write!(
-                f,
-                "the score is NaN or infinite at {points} of {of} points of the pool at which log p is finite"
-            ),
-            Self::Outside { particles, of } => write!(
-                f,
-                "log p is -inf or no number at {particles} of {of} particles: where it is, the score does not lead to the mass"
-            ),
-            Self::Endless { rays, of } => write!(
-                f,
-                "log p does not fall off along {rays} of {of} rays, up to a thousand times the distance of particles: its mass lies farther away, or it is improper, without a finite integral"
-            ),
-            Self::Residual { ratio } => write!(f, "the residual is {ratio:.2} of that of independent draws"),
-            Self::HeavyTail { pareto_k } => write!(
-                f,
-                "the importance weights have a heavy tail, of shape {pareto_k:.2}, and more may have been missed"
-            ),
-            Self::Evidence { error } => write!(f, "the log evidence has a standard error of {error:.2}"),
-            Self::Noise { variance } => write!(
-                f,
-                "the weighted pool has {variance:.2} of the variance of as many independent draws as there are particles"
-            ),
-            Self::Uncovered { mass } => write!(
-                f,
-                "fresh points met a mass of {mass:.3} that nothing had covered before, and more may have been missed"
-            ),
-            Self::Undefined { share } => write!(
-                f,
-                "at {:.0} % of fresh points the log density was NaN or +∞: what mass is there, nobody knows",
-                100.0 * share
-            ),
-            Self::Inconsistent { ratio } => write!(
-                f,
-                "independent parts of the pool are {ratio:.1} times as far apart as their weights explain: one of them has missed what the others met"
-            ),
-            Self::Searching { quiet } => write!(
-                f,
-                "searches for other pieces ended after {quiet:.1} times the evaluations until the last piece was met: there may be more"
-            ),
-            Self::SurveyInVain { evaluations } => write!(
-                f,
-                "{evaluations} evaluations met nothing that could be weighed, and the particles are those of a body without a survey: begin nearer to the mass"
-            ),
-            Self::NotSurveyed => write!(f, "without a survey nothing has looked for other pieces of the target"),
-            Self::Tempered { alpha } => write!(
-                f,
-                "the particles stand for the density to the power of {alpha}, and the scores judge the density itself"
-            ),
-        }
     }
 }
 

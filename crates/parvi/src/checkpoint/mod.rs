@@ -14,6 +14,7 @@ use self::saved::{SavedBody, SavedState};
 use crate::cached_scores::Tape;
 use crate::driven::Driven;
 use crate::guard::{INTERVAL, State};
+use crate::start::check;
 use crate::{MpmOptions, Run, SampleError};
 
 /// Where a run of the calibrated sampler leaves its state.
@@ -47,7 +48,7 @@ impl Checkpoint {
 }
 
 /// What the file holds. What leads to the bodies is computed again, from the values on the tape where there is a survey.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 struct Saved {
     /// What the run was asked for.
     identity: String,
@@ -59,7 +60,8 @@ struct Saved {
     moving: Option<SavedState>,
 }
 
-/// The states of a run on their way to and from its checkpoint; without one it does nothing.
+/// The states of a run on their way to and from its checkpoint; without one, by default, it does nothing.
+#[derive(Default)]
 pub(crate) struct Journal {
     checkpoint: Option<Checkpoint>,
     saved: Saved,
@@ -70,21 +72,6 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// No checkpoint.
-    pub fn none() -> Self {
-        Self {
-            checkpoint: None,
-            saved: Saved {
-                identity: String::new(),
-                tape: Vec::new(),
-                finished: Vec::new(),
-                moving: None,
-            },
-            evaluations: None,
-            replayed: 0,
-        }
-    }
-
     /// The journal of a run, with what an earlier process left in its file.
     pub fn open<const D: usize>(
         options: &MpmOptions,
@@ -93,28 +80,18 @@ impl Journal {
         run: &Run,
     ) -> Result<Self, SampleError> {
         let Some(checkpoint) = &options.checkpoint else {
-            return Ok(Self::none());
+            return Ok(Self::default());
         };
-        if checkpoint.every == 0 || options.trace_every > 0 {
-            let (field, value, expected) = if checkpoint.every == 0 {
-                ("steps between checkpoints", 0.0, "at least 1")
-            } else {
-                (
-                    "steps between records of the history",
-                    options.trace_every as f64,
-                    "0 beside a checkpoint",
-                )
-            };
-            return Err(SampleError::InvalidOption { field, value, expected });
-        }
+        let (every, traced) = (checkpoint.every, options.trace_every);
+        check("steps between checkpoints", every as f64, every > 0, "at least 1")?;
+        let of_history = "steps between records of the history";
+        check(of_history, traced as f64, traced == 0, "0 beside a checkpoint")?;
         let identity = identity(options, target, frame, run);
         let path = &checkpoint.path;
         let saved = match File::open(path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Saved {
                 identity,
-                tape: Vec::new(),
-                finished: Vec::new(),
-                moving: None,
+                ..Saved::default()
             },
             Err(error) => return Err(refused(path, &error)),
             Ok(file) => {
@@ -128,8 +105,7 @@ impl Journal {
         Ok(Self {
             checkpoint: Some(checkpoint.clone()),
             saved,
-            evaluations: None,
-            replayed: 0,
+            ..Self::default()
         })
     }
 

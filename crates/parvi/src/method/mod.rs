@@ -82,7 +82,7 @@ methods! {
     /// The No-U-Turn sampler, a Markov chain; needs the cargo feature `nuts`.
     Nuts(options: NutsOptions) => options.sample(target, frame, run, observer);
     /// The M draws of a bigger sample with the least kernel Stein discrepancy, by a greedy choice.
-    SteinThinning(options: SteinThinningOptions) => options.sample(target, run, observer);
+    SteinThinning(options: SteinThinningOptions) => options.sample(target, frame, run, observer);
     /// The M points with the least energy distance to a bigger sample.
-    SupportPoints(options: SupportPointsOptions) => options.sample(target, run, observer);
+    SupportPoints(options: SupportPointsOptions) => options.sample(target, frame, run, observer);
 }

@@ -1,10 +1,12 @@
 //! Support points: their energy distance falls, ends far below that of independent draws, and they are a method.
 
+use mpm_tensor::Matrix;
 use parvi::{
-    Method, PointSetError, Run, SampleError, Silent, SupportPointsOptions, independent_draws, sample, support_points,
+    Method, PointSetError, Run, SampleError, Silent, SupportPointsOptions, independent_draws, sample, sample_in,
+    support_points,
 };
 use parvi_metrics::{Cloud, GaussianEnergy, energy_distance_squared};
-use parvi_targets::{Banana, Gaussian};
+use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian};
 
 use crate::support::{StopAfter, moments, on_threads};
 
@@ -87,6 +89,20 @@ fn the_method_is_the_function_in_the_frame_s_units() {
         "{:?}",
         moments.covariance
     );
+}
+
+#[test]
+fn a_frame_that_is_given_replaces_that_of_the_target() {
+    let target = Gaussian::new([0.0; 2], Matrix::diagonal(&[1.0, 100.0])).expect("a covariance");
+    let method = Method::SupportPoints(SupportPointsOptions::default());
+    let run = Run::new(20, 3);
+    let within = |frame: &Frame<2>| {
+        let samples = sample_in(&target, frame, &method, &run, &mut Silent);
+        samples.expect("samples").positions
+    };
+    let samples = sample(&target, &method, &run, &mut Silent).expect("samples");
+    assert_eq!(within(&target.frame()), samples.positions);
+    assert_ne!(within(&Frame::identity()), samples.positions);
 }
 
 #[test]

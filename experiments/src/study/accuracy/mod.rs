@@ -6,9 +6,8 @@
 mod figure;
 mod report;
 
-use std::collections::HashSet;
-
-use super::gaussian_runs::{GaussianStudy, Setting};
+use super::checks::distinct_labels;
+use super::gaussian_runs::{self, Setting};
 use super::prelude::*;
 
 /// All methods in all dimensions at all numbers of particles.
@@ -25,18 +24,17 @@ pub struct Accuracy {
     methods: Vec<MethodSpecification>,
 }
 
-impl GaussianStudy for Accuracy {
+impl Study for Accuracy {
+    type Work = Sampled;
+
     const KIND: &'static str = "accuracy";
+    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
     const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension, few particles first.
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
         all_given!(self: seeds, dims, particles, methods);
-        let mut known = HashSet::new();
-        for label in MethodSpecification::labels(&self.methods) {
-            let otherwise = || format!("two are called `{label}`; give one of them a `label` of its own");
-            holds(known.insert(label), "methods", otherwise)?;
-        }
+        distinct_labels(&self.methods)?;
         let mut cases = Vec::new();
         for &dim in &self.dims {
             for &particles in &self.particles {
@@ -46,6 +44,10 @@ impl GaussianStudy for Accuracy {
             }
         }
         distinct("dims, particles or seeds", cases)
+    }
+
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        gaussian_runs::run(case, row, tools)
     }
 }
 

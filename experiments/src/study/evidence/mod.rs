@@ -37,10 +37,8 @@ impl Study for Evidence {
                 format!("log Z of `{}` is not known", target.name)
             })?;
             for method in &self.methods {
-                let (size, name) = (
-                    (self.particles.get(), None),
-                    format!("{}-{}", target.label(), method.label()),
-                );
+                let size = (self.particles.get(), None);
+                let name = format!("{}-{}", target.label(), method.label());
                 cases.extend(Sampled::of_seeds((target, method), size, (&name, &seeds))?);
             }
         }

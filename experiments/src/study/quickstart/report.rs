@@ -59,13 +59,11 @@ const UNDECIDED: &str = ", since standard errors of the reference are above half
 /// Whether the particles' moments keep their bounds, axis by axis.
 fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page) -> Page {
     let bounds = &study.bounds;
-    let [mean, deviation, reference, of_deviation] = [
-        "mean_error",
-        "deviation_error",
-        "reference_error",
-        "reference_deviation_error",
-    ]
-    .map(|column| axes.values(column).into_iter().map(f64::abs).fold(0.0, f64::max));
+    let largest = |column| axes.values(column).into_iter().map(f64::abs).fold(0.0, f64::max);
+    let mean = largest("mean_error");
+    let deviation = largest("deviation_error");
+    let reference = largest("reference_error");
+    let of_deviation = largest("reference_deviation_error");
     let kept = [mean <= bounds.mean, deviation <= bounds.standard_deviation];
     let kept = kept.map(|kept| kept && !axes.is_empty());
     let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
@@ -76,12 +74,10 @@ fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page)
         (_, true) => "fail",
         (_, false) => "undecided",
     };
+    let why = if verdict == "undecided" { UNDECIDED } else { "" };
     let runs = rows.with("case", REFERENCE);
     let values: [(&str, &dyn Display); 8] = [
-        (
-            "verdict",
-            &format!("{verdict}{}", if verdict == "undecided" { UNDECIDED } else { "" }),
-        ),
+        ("verdict", &format!("{verdict}{why}")),
         ("mean error", &number(mean)),
         ("means", &means),
         ("deviation error", &number(100.0 * deviation)),

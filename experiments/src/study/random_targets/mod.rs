@@ -5,7 +5,7 @@
 
 mod report;
 
-use parvi_targets::{Frame, InFrame};
+use parvi_targets::Frame;
 
 use super::prelude::*;
 use super::seed_range::SeedRange;
@@ -50,12 +50,12 @@ impl RandomTargets {
     /// Samples the target in the frame that methods get.
     fn sampled(&self, work: &Sampled, observer: &mut Bar) -> Result<Outcome, CommandError> {
         let Sampled { target, method, run } = work;
-        on_target!(target, target, D => match self.frame {
-            KnownFrame::Own => sample_target::<D>(target.as_ref(), method, run, observer),
-            KnownFrame::Identity => {
-                let frame = Frame::identity();
-                sample_target::<D>(&InFrame { target, frame }, method, run, observer)
-            }
+        on_target!(target, target, D => {
+            let frame = match self.frame {
+                KnownFrame::Own => target.frame(),
+                KnownFrame::Identity => Frame::identity(),
+            };
+            sample_target::<D>(target.as_ref(), &frame, method, run, observer)
         })
     }
 }

@@ -46,10 +46,8 @@ fn better(rows: &Rows<'_>, others: &Rows<'_>) -> Option<String> {
 /// ED² of every method in order of size, one panel per dimension.
 fn plot(study: &RandomTargets, rows: &Rows<'_>) -> MultiplesPlot {
     let panel = |here: &Rows<'_>| {
-        let (methods, all) = (
-            MethodSpecification::labels(&study.methods),
-            study.target_seeds.count.get(),
-        );
+        let methods = MethodSpecification::labels(&study.methods);
+        let all = study.target_seeds.count.get();
         let lines = here.orders("method", methods, "energy_ratio", Some(all));
         MultiplesPanel::new("", lines).with_level(1.0, "independent draws")
     };

@@ -29,10 +29,8 @@ impl Adam {
     pub fn change(&mut self, gradient: &[f64], rate: f64) -> Vec<f64> {
         self.steps += 1;
         let power = self.steps as f64;
-        let (first_scale, second_scale) = (
-            1.0 / (1.0 - FIRST_DECAY.powf(power)),
-            1.0 / (1.0 - SECOND_DECAY.powf(power)),
-        );
+        let first_scale = 1.0 / (1.0 - FIRST_DECAY.powf(power));
+        let second_scale = 1.0 / (1.0 - SECOND_DECAY.powf(power));
         let moments = self.first.iter_mut().zip(&mut self.second);
         let change = |(gradient, (first, second)): (&f64, (&mut f64, &mut f64))| {
             *first = FIRST_DECAY * *first + (1.0 - FIRST_DECAY) * gradient;

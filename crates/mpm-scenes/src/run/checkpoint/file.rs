@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use mpm_document::fingerprint;
+
 use super::Saved;
 use crate::SimulationError;
-use crate::fingerprint::fingerprint;
 use crate::output::write_whole;
 
 /// What a checkpoint begins with; its checksum and content follow.

@@ -6,4 +6,4 @@ mod saved;
 
 pub(super) use file::{read, refused, write};
 pub(super) use identity::{earlier_end, identity};
-pub(super) use saved::{Place, Saved};
+pub(super) use saved::Saved;

@@ -9,7 +9,7 @@ use crate::law::LawState;
 use crate::run::budget;
 
 /// All that a run needs to go on. Scene, bodies and forces are built again.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 pub(in crate::run) struct Saved {
     /// The program's version and the scene's text.
     pub identity: String,
@@ -39,28 +39,10 @@ pub(in crate::run) struct Saved {
     identities: Vec<u32>,
 }
 
-/// What a checkpoint holds beside the particles.
-pub(in crate::run) struct Place {
-    pub identity: String,
-    pub step: u64,
-    pub time: f64,
-    pub free_step: f64,
-    pub rows: usize,
-    pub mesh_contents: Option<u64>,
-    pub budget: Option<budget::Saved>,
-}
-
 impl Saved {
-    /// The particles in their present order.
-    pub fn new<const D: usize>(place: Place, particles: &Particles<D, LawState>) -> Self {
+    /// The particles in their present order, and nothing else.
+    pub fn of<const D: usize>(particles: &Particles<D, LawState>) -> Self {
         Self {
-            identity: place.identity,
-            step: place.step,
-            time: place.time,
-            free_step: place.free_step,
-            rows: place.rows,
-            mesh_contents: place.mesh_contents,
-            budget: place.budget,
             positions: particles.positions.as_flattened().to_vec(),
             velocities: particles.velocities.as_flattened().to_vec(),
             masses: (0..particles.len()).map(|p| particles.masses.get(p)).collect(),
@@ -71,6 +53,7 @@ impl Saved {
             laws: particles.states.iter().map(|state| state.law).collect(),
             memories: particles.states.iter().map(|state| state.memory.0).collect(),
             identities: particles.identities().to_vec(),
+            ..Self::default()
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::vector;
 use rand::Rng;
 use statrs::function::gamma::ln_gamma;
 
@@ -167,10 +167,7 @@ impl<const D: usize> CatalogueTarget<D> for GaussianShells<D> {
 
     fn moments(&self) -> Option<Moments<D>> {
         let offset: [f64; D] = centre(OFFSET);
-        Some(Moments {
-            mean: [0.0; D],
-            covariance: Matrix::diagonal(&offset.map(|c| c * c + self.variance)),
-        })
+        Some(Moments::centred(offset.map(|c| c * c + self.variance)))
     }
 
     fn modes(&self) -> &[Mode<D>] {

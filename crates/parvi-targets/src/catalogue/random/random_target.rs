@@ -4,6 +4,7 @@ use rand::Rng;
 
 use super::dice::Dice;
 use super::recipes::{law_of, placed};
+use crate::catalogue::making::dimension_within;
 use crate::target::its_own_source;
 use crate::{
     BoxedLaw, CatalogueTarget, ExactDraws, Frame, MAXIMUM_DIMENSION, RandomFamily, Target, TargetError,
@@ -41,15 +42,9 @@ impl<const D: usize> RandomTarget<D> {
     /// # Errors
     /// [`TargetError::DimensionNotAllowed`] unless 1 ≤ D ≤ 8.
     pub fn new(seed: u64) -> Result<Self, TargetError> {
-        let fitting = RandomFamily::ALL.map(|family| (family, family.minimum_dimension() <= D));
-        let families: Vec<_> = fitting
-            .iter()
-            .filter(|(_, fits)| *fits)
-            .map(|(family, _)| *family)
-            .collect();
-        if families.is_empty() {
-            return Err(wrong_dimension(D));
-        }
+        dimension_within("random", D, 1..=MAXIMUM_DIMENSION)?;
+        let mut families = RandomFamily::all().to_vec();
+        families.retain(|family| family.minimum_dimension() <= D);
         Self::of_family(Dice::new(seed, 0).pick(&families), seed)
     }
 
@@ -58,9 +53,7 @@ impl<const D: usize> RandomTarget<D> {
     /// # Errors
     /// [`TargetError::DimensionNotAllowed`] unless D is at least the [family's](RandomFamily::minimum_dimension) and at most 8.
     pub fn of_family(family: RandomFamily, seed: u64) -> Result<Self, TargetError> {
-        if !(1..=MAXIMUM_DIMENSION).contains(&D) {
-            return Err(wrong_dimension(D));
-        }
+        dimension_within("random", D, 1..=MAXIMUM_DIMENSION)?;
         let mut dice = Dice::new(seed, 1);
         let shape = law_of::<D>(family, &mut dice)?;
         let unit = dice.scale(0.1, 10.0);
@@ -87,14 +80,6 @@ impl<const D: usize> RandomTarget<D> {
     /// The family.
     pub fn family(&self) -> RandomFamily {
         self.family
-    }
-}
-
-fn wrong_dimension(dimension: usize) -> TargetError {
-    TargetError::DimensionNotAllowed {
-        target: "random".to_owned(),
-        dimension,
-        allowed: format!("1 to {MAXIMUM_DIMENSION}"),
     }
 }
 

@@ -16,6 +16,7 @@ mod ridge;
 mod spiral;
 
 use super::dice::Dice;
+use crate::catalogue::making::no_dimension;
 use crate::{BoxedLaw, RandomFamily, TargetError};
 
 pub(crate) use parts::placed;
@@ -26,11 +27,12 @@ pub(crate) use parts::placed;
 /// [`TargetError::DimensionNotAllowed`] below the family's smallest dimension.
 pub(crate) fn law_of<const D: usize>(family: RandomFamily, dice: &mut Dice) -> Result<BoxedLaw<D>, TargetError> {
     if D < family.minimum_dimension() {
-        return Err(TargetError::DimensionNotAllowed {
-            target: format!("random target of the family {}", family.name()),
-            dimension: D,
-            allowed: format!("{} or more", family.minimum_dimension()),
-        });
+        let target = format!("random target of the family {}", family.name());
+        return Err(no_dimension(
+            &target,
+            D,
+            format!("{} or more", family.minimum_dimension()),
+        ));
     }
     match family {
         RandomFamily::Plateau => plateau::law(dice),
