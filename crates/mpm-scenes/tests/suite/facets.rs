@@ -3,21 +3,20 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use mpm_mesh::SimplexMesh;
 use mpm_mesh::generate::{EdgeTarget, disk};
+use mpm_mesh::{BoundaryFacet, SimplexMesh};
 use mpm_scenes::{Scene, Snapshot, frames};
 
-/// A disk of radius 1 whose boundary is the physical group `rim`, as a file of version 2.2.
-fn file() -> String {
-    let target = EdgeTarget {
-        length: 0.2,
-        angle: 0.3,
-    };
-    let mesh: SimplexMesh<2> = disk([0.0; 2], 1.0, &target).expect("a disk");
-    let mut text = String::from(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 4 \"rim\"\n$EndPhysicalNames\n$Nodes\n",
+/// A mesh whose boundary is in physical groups by number and name, as a file of version 2.2.
+pub fn msh(mesh: &SimplexMesh<2>, names: &[(u32, &str)], group: impl Fn(&BoundaryFacet<2>) -> u32) -> String {
+    let mut text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
+        names.len()
     );
-    let _ = writeln!(text, "{}", mesh.vertices().len());
+    for (number, name) in names {
+        let _ = writeln!(text, "1 {number} \"{name}\"");
+    }
+    let _ = writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", mesh.vertices().len());
     for (tag, [x, y]) in (1..).zip(mesh.vertices()) {
         let _ = writeln!(text, "{tag} {x:e} {y:e} 0");
     }
@@ -25,12 +24,22 @@ fn file() -> String {
     let _ = writeln!(text, "$EndNodes\n$Elements\n{}", boundary.len() + mesh.cell_count());
     for (tag, facet) in (1..).zip(&boundary) {
         let [a, b] = facet.vertices.map(|vertex| vertex + 1);
-        let _ = writeln!(text, "{tag} 1 2 4 1 {a} {b}");
+        let _ = writeln!(text, "{tag} 1 2 {} 1 {a} {b}", group(facet));
     }
     for (tag, cell) in (boundary.len() + 1..).zip(mesh.cells()) {
         let _ = writeln!(text, "{tag} 2 2 0 1 {} {} {}", cell[0] + 1, cell[1] + 1, cell[2] + 1);
     }
     text + "$EndElements\n"
+}
+
+/// A disk of radius 1 whose boundary is the physical group `rim`.
+fn file() -> String {
+    let target = EdgeTarget {
+        length: 0.2,
+        angle: 0.3,
+    };
+    let mesh = disk([0.0; 2], 1.0, &target).expect("a disk");
+    msh(&mesh, &[(4, "rim")], |_| 4)
 }
 
 const SCENE: &str = r#"

@@ -10,6 +10,7 @@ mod facets;
 mod failures;
 mod fill;
 mod forces;
+mod held_facets;
 mod kinematic;
 mod law;
 mod on_meshes;
