@@ -3,6 +3,7 @@
 use mpm_tensor::vector;
 
 use super::Contact;
+use super::image_solve::{Free, NO_UNKNOWN, Work};
 use crate::error::within;
 use crate::{Basis, GridNode, MpmError};
 
@@ -44,49 +45,6 @@ pub struct ImageNode<const D: usize> {
     /// Positions of the nodes around its mirror point and their shares b_k, from 0 to 1 and of sum one. Where there are none, or one of them is not active, the node is held.
     pub sources: Vec<([f64; D], f64)>,
 }
-
-/// What is unknown, and the vectors of the conjugate gradients. Unknowns are the velocities of all sources.
-#[derive(Default)]
-struct Work<const D: usize> {
-    /// Of every image that has its sources: its place in the list, its number, and the end of its sources in `sources`.
-    images: Vec<(usize, usize, usize)>,
-    /// Unknown and share.
-    sources: Vec<(usize, f64)>,
-    /// Number of the node of every unknown.
-    numbers: Vec<usize>,
-    free: Vec<Free<D>>,
-    /// Unknown of every node.
-    places: Vec<u32>,
-    diagonal: Vec<f64>,
-    residual: Vec<[f64; D]>,
-    direction: Vec<[f64; D]>,
-    product: Vec<[f64; D]>,
-    change: Vec<[f64; D]>,
-}
-
-/// How the velocity of an unknown may change.
-#[derive(Clone, Copy)]
-enum Free<const D: usize> {
-    All,
-    Along([f64; D]),
-    Nothing,
-}
-
-impl<const D: usize> Free<D> {
-    fn of(self, change: [f64; D]) -> [f64; D] {
-        match self {
-            Self::All => change,
-            Self::Along(normal) => Contact::Slip.resolve(&normal, &change),
-            Self::Nothing => [0.0; D],
-        }
-    }
-}
-
-const NO_UNKNOWN: u32 = u32::MAX;
-
-/// The residual, as a share of the first one, at which the iteration ends, and how many there are at most.
-const TOLERANCE: f64 = 1e-13;
-const MOST_ITERATIONS: usize = 100;
 
 impl<const D: usize> HeldSurface<D> {
     /// A surface with these nodes on it and behind it.
@@ -205,130 +163,6 @@ impl<const D: usize> HeldSurface<D> {
                     Free::Nothing
                 };
             }
-        }
-    }
-}
-
-impl<const D: usize> Work<D> {
-    fn unknown(&mut self, number: usize) -> usize {
-        if self.places[number] == NO_UNKNOWN {
-            self.places[number] = self.numbers.len() as u32;
-            self.numbers.push(number);
-            self.free.push(Free::All);
-        }
-        self.places[number] as usize
-    }
-
-    /// Place, number, and sources of every image that has them.
-    fn with_sources(&self) -> impl Iterator<Item = (usize, usize, &[(usize, f64)])> {
-        let starts = std::iter::once(0).chain(self.images.iter().map(|image| image.2));
-        let images = self.images.iter().zip(starts);
-        images.map(|(&(image, number, end), start)| (image, number, &self.sources[start..end]))
-    }
-
-    /// The diagonal of A, and Bᵀ m (image of the node − velocity at its mirror point).
-    fn begin(
-        &mut self,
-        masses: &[f64],
-        lacking: impl Fn(usize, usize, &[f64; D]) -> [f64; D],
-        velocity: impl Fn(usize) -> [f64; D],
-    ) {
-        let mut diagonal: Vec<f64> = self.numbers.iter().map(|&number| masses[number]).collect();
-        let mut residual = vec![[0.0; D]; diagonal.len()];
-        for (image, number, sources) in self.with_sources() {
-            let mut at_mirror = [0.0; D];
-            for &(unknown, share) in sources {
-                vector::accumulate(&mut at_mirror, share, &velocity(self.numbers[unknown]));
-            }
-            let lacking = lacking(image, number, &at_mirror);
-            for &(unknown, share) in sources {
-                diagonal[unknown] += share * share * masses[number];
-                vector::accumulate(&mut residual[unknown], share * masses[number], &lacking);
-            }
-        }
-        (self.diagonal, self.residual) = (diagonal, residual);
-    }
-
-    /// A x = m x + Σ over images Bᵀ m B x.
-    fn apply(&mut self, masses: &[f64]) {
-        let mut product = std::mem::take(&mut self.product);
-        product.clear();
-        let own = self.numbers.iter().zip(&self.direction);
-        product.extend(own.map(|(&number, x)| vector::scale(x, masses[number])));
-        for (_, number, sources) in self.with_sources() {
-            let mut at_mirror = [0.0; D];
-            for &(unknown, share) in sources {
-                vector::accumulate(&mut at_mirror, share, &self.direction[unknown]);
-            }
-            for &(unknown, share) in sources {
-                vector::accumulate(&mut product[unknown], share * masses[number], &at_mirror);
-            }
-        }
-        self.product = product;
-    }
-
-    /// `change`, which solves A x = `residual` in what is free, by conjugate gradients over the diagonal. Negative masses may leave A without an inverse: it ends there.
-    fn solve(&mut self, masses: &[f64]) {
-        let count = self.numbers.len();
-        self.change.clear();
-        self.change.resize(count, [0.0; D]);
-        self.direction.clear();
-        self.direction.resize(count, [0.0; D]);
-        let (mut first, mut last) = (0.0, 0.0);
-        for iteration in 0..MOST_ITERATIONS {
-            let mut size = 0.0;
-            for k in 0..count {
-                self.residual[k] = self.free[k].of(self.residual[k]);
-                if self.diagonal[k].is_normal() {
-                    size += vector::dot(&self.residual[k], &self.residual[k]) / self.diagonal[k];
-                }
-            }
-            if iteration == 0 {
-                first = size;
-            }
-            if !(size > TOLERANCE * TOLERANCE * first) {
-                return;
-            }
-            let keep = if iteration == 0 { 0.0 } else { size / last };
-            for k in 0..count {
-                let scaled = if self.diagonal[k].is_normal() {
-                    vector::scale(&self.residual[k], 1.0 / self.diagonal[k])
-                } else {
-                    [0.0; D]
-                };
-                self.direction[k] = vector::add_scaled(&scaled, keep, &self.direction[k]);
-            }
-            self.apply(masses);
-            let curvature: f64 = self
-                .direction
-                .iter()
-                .zip(&self.product)
-                .map(|(x, y)| vector::dot(x, y))
-                .sum();
-            if !(curvature > 0.0) {
-                return;
-            }
-            let step = size / curvature;
-            for k in 0..count {
-                vector::accumulate(&mut self.change[k], step, &self.direction[k]);
-                vector::accumulate(&mut self.residual[k], -step, &self.product[k]);
-            }
-            last = size;
-        }
-    }
-
-    /// The masses that unknowns and images have together.
-    fn join(&self, masses: &mut [f64]) {
-        for (_, number, sources) in self.with_sources() {
-            for &(unknown, share) in sources {
-                masses[self.numbers[unknown]] += share * masses[number];
-            }
-        }
-        for (_, number, sources) in self.with_sources() {
-            let joined = sources
-                .iter()
-                .map(|&(unknown, share)| share * masses[self.numbers[unknown]]);
-            masses[number] = joined.sum();
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod contact;
 mod held_surface;
+mod image_solve;
 mod mirror;
 mod node_forces;
 mod obstacle;

@@ -54,13 +54,10 @@ fn plane_of<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> Option<([
         area += facet.area;
     }
     let length = norm(&sum);
-    if !(length > (1.0 - IN_THE_PLANE) * area) {
-        return None;
-    }
     let normal = scale(&sum, 1.0 / length);
     let position = |vertex: u32| inner.vertices()[vertex as usize];
     let point = position(*facets.first()?);
     let limit = IN_THE_PLANE * inner.edge_lengths().longest;
     let in_plane = |&vertex: &u32| dot(&normal, &subtract(&position(vertex), &point)).abs() <= limit;
-    facets.iter().all(in_plane).then_some((point, normal))
+    (length > (1.0 - IN_THE_PLANE) * area && facets.iter().all(in_plane)).then_some((point, normal))
 }

@@ -10,6 +10,7 @@ mod driver;
 mod energies;
 mod error;
 mod frames;
+mod held_facets;
 mod measure;
 mod motion;
 mod observer;
