@@ -1,21 +1,47 @@
 //! Runs on the standard Gaussian N(0, I), measured in the exact squared energy distance: what several studies share.
 
+use serde::de::DeserializeOwned;
+
 use super::prelude::*;
 use super::yardstick::CurrentYardstick;
 use crate::dispatch::in_dimension;
 
-/// The columns of such runs.
-pub const COLUMNS: &str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
-     energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
+/// A study of such runs.
+pub trait GaussianStudy: DeserializeOwned + Sync {
+    /// The `kind` in the configuration.
+    const KIND: &'static str;
 
-/// Samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
-///
-/// # Errors
-/// What ends a study.
-pub fn run(case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-    let yardstick = standard_yardstick(&case.work.target, tools.yardstick)?;
-    case.work.run(row, yardstick, tools.observer)
+    /// Its report.
+    const REPORT: Report<Self>;
+
+    /// All cases, in the order in which they run.
+    ///
+    /// # Errors
+    /// Parts of the configuration that do not fit together.
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError>;
 }
+
+impl<S: GaussianStudy> Study for S {
+    type Work = Sampled;
+
+    const KIND: &'static str = S::KIND;
+    const COLUMNS: &'static str = COLUMNS;
+    const REPORT: Report<Self> = S::REPORT;
+
+    fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
+        GaussianStudy::cases(self)
+    }
+
+    /// Samples N(0, I) and measures the particles. A run that diverges is a row with its reason.
+    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
+        let yardstick = standard_yardstick(&case.work.target, tools.yardstick)?;
+        case.work.run(row, yardstick, tools.observer)
+    }
+}
+
+/// The columns of such runs.
+const COLUMNS: &str = "case status reason dim particles series spacing_factor requested_spacing requested_steps seed \
+     energy_distance_squared energy_level steps score_evaluations density_evaluations spacing active_nodes wall_seconds";
 
 /// What is run with several seeds.
 pub struct Setting<'a> {

@@ -81,6 +81,20 @@ impl<B: Basis<2>> Constrained<B> {
         sum
     }
 
+    /// The nodes when these boundaries act on them once more.
+    fn again(&self, mut boundaries: Boundaries<2>) -> Vec<VelocityNode<2>> {
+        let motion = GridMotion {
+            positions: &self.positions,
+            extents: Extents::default(),
+            time: 0.0,
+            time_step: 0.1,
+            forces: true,
+        };
+        let mut nodes = self.after.clone();
+        boundaries.constrain(&self.basis, &motion, &mut nodes);
+        nodes
+    }
+
     fn momentum(nodes: &[VelocityNode<2>], axis: usize) -> f64 {
         nodes.iter().map(|node| node.mass() * node.velocity()[axis]).sum()
     }
@@ -166,15 +180,7 @@ fn sliding_walls_keep_the_momentum_along_them() {
 #[test]
 fn mirroring_is_a_projection() {
     let once = constrained::<Cubic, 4>(box_of(Contact::Stick));
-    let mut twice = once.after.clone();
-    let motion = GridMotion {
-        positions: &once.positions,
-        extents: Extents::default(),
-        time: 0.0,
-        time_step: 0.1,
-        forces: true,
-    };
-    box_of(Contact::Stick).constrain(&once.basis, &motion, &mut twice);
+    let twice = once.again(box_of(Contact::Stick));
     for (first, second) in once.after.iter().zip(&twice) {
         for a in 0..2 {
             assert!((first.velocity()[a] - second.velocity()[a]).abs() < 1e-12);
@@ -259,15 +265,7 @@ fn images_between_nodes_are_a_projection() {
             compared += 1;
         }
         assert!(compared > 3, "{compared}");
-        let motion = GridMotion {
-            positions: &once.positions,
-            extents: Extents::default(),
-            time: 0.0,
-            time_step: 0.1,
-            forces: true,
-        };
-        let mut twice = once.after.clone();
-        act().constrain(&once.basis, &motion, &mut twice);
+        let twice = once.again(act());
         for (first, second) in once.after.iter().zip(&twice) {
             for a in 0..2 {
                 assert!((first.velocity()[a] - second.velocity()[a]).abs() < 1e-11, "{slides}");

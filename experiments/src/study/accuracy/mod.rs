@@ -7,7 +7,7 @@ mod figure;
 mod report;
 
 use super::checks::distinct_labels;
-use super::gaussian_runs::{self, Setting};
+use super::gaussian_runs::{GaussianStudy, Setting};
 use super::prelude::*;
 
 /// All methods in all dimensions at all numbers of particles.
@@ -24,11 +24,8 @@ pub struct Accuracy {
     methods: Vec<MethodSpecification>,
 }
 
-impl Study for Accuracy {
-    type Work = Sampled;
-
+impl GaussianStudy for Accuracy {
     const KIND: &'static str = "accuracy";
-    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
     const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension, few particles first.
@@ -44,10 +41,6 @@ impl Study for Accuracy {
             }
         }
         distinct("dims, particles or seeds", cases)
-    }
-
-    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        gaussian_runs::run(case, row, tools)
     }
 }
 

@@ -6,7 +6,7 @@
 mod choice;
 mod report;
 
-use super::gaussian_runs::{self, Setting, default_spacing};
+use super::gaussian_runs::{GaussianStudy, Setting, default_spacing};
 use super::prelude::*;
 
 /// All bases at several spacings and numbers of steps.
@@ -36,11 +36,8 @@ impl BasisComparison {
     }
 }
 
-impl Study for BasisComparison {
-    type Work = Sampled;
-
+impl GaussianStudy for BasisComparison {
     const KIND: &'static str = "basis-comparison";
-    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
     const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension.
@@ -73,9 +70,5 @@ impl Study for BasisComparison {
             }
         }
         distinct("seeds, dims, bases, spacings or steps", cases)
-    }
-
-    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        gaussian_runs::run(case, row, tools)
     }
 }

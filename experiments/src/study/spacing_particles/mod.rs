@@ -4,7 +4,7 @@
 
 mod report;
 
-use super::gaussian_runs::{self, Setting};
+use super::gaussian_runs::{GaussianStudy, Setting};
 use super::prelude::*;
 
 /// All pairs of a spacing and a number of particles, one series of spacings per dimension.
@@ -40,11 +40,8 @@ impl Series {
     }
 }
 
-impl Study for SpacingParticles {
-    type Work = Sampled;
-
+impl GaussianStudy for SpacingParticles {
     const KIND: &'static str = "spacing-particles";
-    const COLUMNS: &'static str = gaussian_runs::COLUMNS;
     const REPORT: Report<Self> = report::report;
 
     /// The cases, dimension by dimension.
@@ -65,9 +62,5 @@ impl Study for SpacingParticles {
             }
         }
         distinct("seeds, particles or series", cases)
-    }
-
-    fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        gaussian_runs::run(case, row, tools)
     }
 }

@@ -29,35 +29,47 @@ pub enum RandomFamily {
     Blend,
 }
 
-/// Of each, in the order of the list above, its name for tables and the smallest dimension that it has.
-const FAMILIES: [(RandomFamily, &str, usize); 12] = [
-    (RandomFamily::Plateau, "plateau", 1),
-    (RandomFamily::Cusp, "cusp", 1),
-    (RandomFamily::HeavyTail, "heavy-tail", 1),
-    (RandomFamily::Nested, "nested", 1),
-    (RandomFamily::Modes, "modes", 1),
-    (RandomFamily::Ridge, "ridge", 2),
-    (RandomFamily::Spiral, "spiral", 2),
-    (RandomFamily::Moons, "moons", 2),
-    (RandomFamily::Funnel, "funnel", 2),
-    (RandomFamily::Product, "product", 3),
-    (RandomFamily::Grid, "grid", 2),
-    (RandomFamily::Blend, "blend", 2),
-];
-
 impl RandomFamily {
-    /// All of them.
-    pub fn all() -> [Self; FAMILIES.len()] {
-        FAMILIES.map(|(family, ..)| family)
-    }
+    /// All of them, in the order of this list.
+    pub const ALL: [Self; 12] = [
+        Self::Plateau,
+        Self::Cusp,
+        Self::HeavyTail,
+        Self::Nested,
+        Self::Modes,
+        Self::Ridge,
+        Self::Spiral,
+        Self::Moons,
+        Self::Funnel,
+        Self::Product,
+        Self::Grid,
+        Self::Blend,
+    ];
 
     /// The smallest dimension that the family has.
     pub fn minimum_dimension(self) -> usize {
-        FAMILIES[self as usize].2
+        match self {
+            Self::Plateau | Self::Cusp | Self::HeavyTail | Self::Nested | Self::Modes => 1,
+            Self::Ridge | Self::Spiral | Self::Moons | Self::Funnel | Self::Grid | Self::Blend => 2,
+            Self::Product => 3,
+        }
     }
 
     /// A name for tables.
     pub fn name(self) -> &'static str {
-        FAMILIES[self as usize].1
+        match self {
+            Self::Plateau => "plateau",
+            Self::Cusp => "cusp",
+            Self::HeavyTail => "heavy-tail",
+            Self::Nested => "nested",
+            Self::Modes => "modes",
+            Self::Ridge => "ridge",
+            Self::Spiral => "spiral",
+            Self::Moons => "moons",
+            Self::Funnel => "funnel",
+            Self::Product => "product",
+            Self::Grid => "grid",
+            Self::Blend => "blend",
+        }
     }
 }

@@ -43,7 +43,7 @@ impl<const D: usize> RandomTarget<D> {
     /// [`TargetError::DimensionNotAllowed`] unless 1 ≤ D ≤ 8.
     pub fn new(seed: u64) -> Result<Self, TargetError> {
         dimension_within("random", D, 1..=MAXIMUM_DIMENSION)?;
-        let mut families = RandomFamily::all().to_vec();
+        let mut families = RandomFamily::ALL.to_vec();
         families.retain(|family| family.minimum_dimension() <= D);
         Self::of_family(Dice::new(seed, 0).pick(&families), seed)
     }
