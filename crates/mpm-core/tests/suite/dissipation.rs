@@ -7,16 +7,11 @@ use mpm_kernels::Quadratic;
 use mpm_materials::IsothermalGas;
 use mpm_tensor::Matrix;
 
-use crate::scenes::{Pull, free};
+use crate::scenes::{Pull, free, strip};
 
 /// The share of kinetic energy that is left after unit time, of a wave six cells long. It is the same along the first axis, so that a strip two cells wide shows all of it.
 fn left<T: Transfer<2>>(transfer: T, steps: usize) -> f64 {
-    const ALONG: usize = 4;
-    const ACROSS: usize = 48;
-    let place = |k: usize| (k as f64 + 0.5) / ACROSS as f64;
-    let positions: Vec<[f64; 2]> = (0..ALONG * ACROSS)
-        .map(|k| [place(k % ALONG), place(k / ALONG)])
-        .collect();
+    let positions = strip(4, 48);
     let mut particles = Particles::at_rest(positions, 1.0);
     particles.velocities = particles
         .positions

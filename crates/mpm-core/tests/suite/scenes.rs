@@ -169,6 +169,14 @@ impl<const D: usize> BodyForce<D> for Pull<'_, D> {
     }
 }
 
+/// A strip of height 1, `across` rows of `along` points, all as far apart as the rows.
+pub fn strip(along: usize, across: usize) -> Vec<[f64; 2]> {
+    let place = |k: usize| (k as f64 + 0.5) / across as f64;
+    (0..along * across)
+        .map(|k| [place(k % along), place(k / along)])
+        .collect()
+}
+
 /// A force by a function of position and mass.
 struct Field<'a, const D: usize> {
     location: ForceLocation,

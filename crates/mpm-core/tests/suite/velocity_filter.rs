@@ -7,7 +7,7 @@ use mpm_kernels::{Cubic, Linear, Quadratic};
 use mpm_materials::IsothermalGas;
 use proptest::prelude::*;
 
-use crate::scenes::{Pull, bits, free, gaussian_cloud, uniform_cloud};
+use crate::scenes::{Pull, bits, free, gaussian_cloud, strip, uniform_cloud};
 
 /// rτ of a filter in these tests.
 const EXPONENT: f64 = 0.7;
@@ -136,11 +136,9 @@ const RATE: f64 = 2.02;
 fn left(order: usize, steps: usize) -> [f64; 2] {
     const ALONG: usize = 16;
     const ACROSS: usize = 48;
-    let place = |k: usize| (k as f64 + 0.5) / ACROSS as f64;
-    let positions: Vec<[f64; 2]> = (0..ALONG * ACROSS)
-        .map(|k| [place(k % ALONG), place(k / ALONG)])
-        .collect();
-    let wave = |k: usize| (4.0 * TAU * place(k / ALONG)).sin();
+    let positions = strip(ALONG, ACROSS);
+    let rows: Vec<f64> = positions.iter().map(|x| x[1]).collect();
+    let wave = |k: usize| (4.0 * TAU * rows[k]).sin();
     let noise = |k: usize| {
         if (k % ALONG + k / ALONG).is_multiple_of(2) {
             1.0
