@@ -3,7 +3,7 @@
 use mpm_tensor::vector;
 
 use super::Contact;
-use super::image_solve::{Free, NO_UNKNOWN, Work};
+use super::image_solve::{Free, NO_UNKNOWN, Work, at_mirror};
 use crate::error::within;
 use crate::{Basis, GridNode, MpmError};
 
@@ -118,10 +118,7 @@ impl<const D: usize> HeldSurface<D> {
             vector::accumulate(nodes[number].velocity_mut(), 1.0, change);
         }
         for (image, number, sources) in work.with_sources() {
-            let mut at_mirror = [0.0; D];
-            for &(unknown, share) in sources {
-                vector::accumulate(&mut at_mirror, share, nodes[work.numbers[unknown]].velocity());
-            }
+            let at_mirror = at_mirror(sources, |unknown| *nodes[work.numbers[unknown]].velocity());
             *nodes[number].velocity_mut() = self.image(&self.images[image].node, &at_mirror);
         }
         work.join(masses);

@@ -47,6 +47,15 @@ pub(super) const NO_UNKNOWN: u32 = u32::MAX;
 const TOLERANCE: f64 = 1e-13;
 const MOST_ITERATIONS: usize = 100;
 
+/// Σ_k b_k v_k over the sources of an image.
+pub(super) fn at_mirror<const D: usize>(sources: &[(usize, f64)], velocity: impl Fn(usize) -> [f64; D]) -> [f64; D] {
+    let mut sum = [0.0; D];
+    for &(unknown, share) in sources {
+        vector::accumulate(&mut sum, share, &velocity(unknown));
+    }
+    sum
+}
+
 impl<const D: usize> Work<D> {
     pub(super) fn unknown(&mut self, number: usize) -> usize {
         if self.places[number] == NO_UNKNOWN {
@@ -74,10 +83,7 @@ impl<const D: usize> Work<D> {
         let mut diagonal: Vec<f64> = self.numbers.iter().map(|&number| masses[number]).collect();
         let mut residual = vec![[0.0; D]; diagonal.len()];
         for (image, number, sources) in self.with_sources() {
-            let mut at_mirror = [0.0; D];
-            for &(unknown, share) in sources {
-                vector::accumulate(&mut at_mirror, share, &velocity(self.numbers[unknown]));
-            }
+            let at_mirror = at_mirror(sources, |unknown| velocity(self.numbers[unknown]));
             let lacking = lacking(image, number, &at_mirror);
             for &(unknown, share) in sources {
                 diagonal[unknown] += share * share * masses[number];
@@ -94,10 +100,7 @@ impl<const D: usize> Work<D> {
         let own = self.numbers.iter().zip(&self.direction);
         product.extend(own.map(|(&number, x)| vector::scale(x, masses[number])));
         for (_, number, sources) in self.with_sources() {
-            let mut at_mirror = [0.0; D];
-            for &(unknown, share) in sources {
-                vector::accumulate(&mut at_mirror, share, &self.direction[unknown]);
-            }
+            let at_mirror = at_mirror(sources, |unknown| self.direction[unknown]);
             for &(unknown, share) in sources {
                 vector::accumulate(&mut product[unknown], share * masses[number], &at_mirror);
             }
