@@ -80,8 +80,11 @@ impl<const D: usize> Work<D> {
         lacking: impl Fn(usize, usize, &[f64; D]) -> [f64; D],
         velocity: impl Fn(usize) -> [f64; D],
     ) {
-        let mut diagonal: Vec<f64> = self.numbers.iter().map(|&number| masses[number]).collect();
-        let mut residual = vec![[0.0; D]; diagonal.len()];
+        let (mut diagonal, mut residual) = (std::mem::take(&mut self.diagonal), std::mem::take(&mut self.residual));
+        diagonal.clear();
+        diagonal.extend(self.numbers.iter().map(|&number| masses[number]));
+        residual.clear();
+        residual.resize(diagonal.len(), [0.0; D]);
         for (image, number, sources) in self.with_sources() {
             let at_mirror = at_mirror(sources, |unknown| velocity(self.numbers[unknown]));
             let lacking = lacking(image, number, &at_mirror);

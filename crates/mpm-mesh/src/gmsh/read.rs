@@ -61,6 +61,9 @@ fn read_sections<const D: usize>(bytes: &[u8]) -> Result<(Raw, Cursor<'_>), MshE
                 raw.groups.read_names(&mut cursor)?;
                 cursor.expect("$EndPhysicalNames")?;
             }
+            late @ ("$Entities" | "$PartitionedEntities") if elements_seen && matches!(version, Version::Four) => {
+                return Err(cursor.malformed(mark, "a section that may follow $Elements", late));
+            }
             "$Entities" if matches!(version, Version::Four) => {
                 raw.groups.read_entities(&mut cursor)?;
                 cursor.expect("$EndEntities")?;

@@ -130,4 +130,14 @@ fn partitioned_meshes_keep_their_groups() {
     let bad = file.replace("3 1 1 1 1 0", "3 1 1 1 x 0");
     let refused = read_named_msh::<2>(bad.as_bytes()).expect_err("no number").to_string();
     assert_eq!(refused, "line 21: `x` where the number of a partition should be");
+
+    // Entities tell the groups of elements, so they cannot come behind these.
+    let (before, entities) = file.split_once("$PartitionedEntities").expect("the section");
+    let (entities, behind) = entities.split_once("$EndPartitionedEntities\n").expect("its end");
+    let late = format!("{before}{behind}$PartitionedEntities{entities}$EndPartitionedEntities\n");
+    let refused = read_named_msh::<2>(late.as_bytes()).expect_err("too late").to_string();
+    assert_eq!(
+        refused,
+        "line 41: `$PartitionedEntities` where a section that may follow $Elements should be"
+    );
 }
