@@ -55,3 +55,4 @@ pub use transfer::{
     VelocityNode, gather,
 };
 pub use velocity_filter::VelocityFilter;
+pub use volume_averaging::VolumeAveraging;

@@ -4,7 +4,7 @@ use mpm_tensor::Matrix;
 
 use crate::contact::NodalContact;
 use crate::friction::NormalImpulse;
-use crate::volume_averaging::NodeVolume;
+use crate::volume_averaging::{NodeVolume, VolumeAveraging};
 use crate::{
     Basis, BodyForce, Boundary, EnergyBudget, Medium, NoBoundary, NodeSums, Particles, StressUpdate, StressWork,
     Transfer, VelocityFilter,
@@ -27,8 +27,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub boundary: C,
     /// When in a step the particles deform.
     pub stress_update: StressUpdate,
-    /// Whether volume ratios are averaged over the nodes (F̄), against volumetric locking.
-    pub volume_averaging: bool,
+    /// What of the particles' volumes is averaged over the nodes (F̄), against volumetric locking.
+    pub volume_averaging: VolumeAveraging,
     /// What is forgotten of velocities that the nodes do not see.
     pub velocity_filter: Option<VelocityFilter<D>>,
     /// Where kinetic energy has gone; `None`, as at first: nobody asks.
@@ -46,6 +46,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub(crate) node_forces: Vec<[f64; D]>,
     /// Volumes around the nodes; empty without volume averaging.
     pub(crate) node_volumes: NodeSums<NodeVolume>,
+    /// Volume ratios before the step, where their changes are averaged; else empty.
+    pub(crate) ratios_before: Vec<f64>,
     /// What presses on the nodes; empty without friction.
     pub(crate) normal_impulses: NodeSums<NormalImpulse<D>>,
     /// Particles in contact, by nodes; empty without a contact.
@@ -76,7 +78,7 @@ where
             body_force,
             boundary: NoBoundary,
             stress_update: StressUpdate::default(),
-            volume_averaging: false,
+            volume_averaging: VolumeAveraging::Off,
             velocity_filter: None,
             energy_budget: None,
             time: 0.0,
@@ -86,6 +88,7 @@ where
             node_positions: Vec::new(),
             node_forces: Vec::new(),
             node_volumes: NodeSums::default(),
+            ratios_before: Vec::new(),
             normal_impulses: NodeSums::default(),
             contact: NodalContact::default(),
         }
@@ -114,6 +117,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             node_positions: self.node_positions,
             node_forces: self.node_forces,
             node_volumes: self.node_volumes,
+            ratios_before: self.ratios_before,
             normal_impulses: self.normal_impulses,
             contact: self.contact,
         }
@@ -126,6 +130,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             + self.basis.storage_bytes()
             + self.nodes.storage_bytes()
             + self.node_volumes.storage_bytes()
+            + self.ratios_before.capacity() * size_of::<f64>()
             + self.normal_impulses.storage_bytes()
             + self.contact.storage_bytes()
             + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)

@@ -69,7 +69,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
 
     /// Whether the body is told an order that its medium has.
     fn check_order(&self) -> Result<(), MpmError> {
-        if M::ORDER_IS_FIXED && (self.stress_update != StressUpdate::Last || self.volume_averaging) {
+        if M::ORDER_IS_FIXED && (self.stress_update != StressUpdate::Last || self.volume_averaging.acts()) {
             return Err(MpmError::InvalidParameter {
                 field: "stress_update",
                 value: f64::from(self.stress_update as u8),
@@ -97,7 +97,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         }
         match self.stress_update {
             StressUpdate::First => self.move_particles(dt, damping),
-            StressUpdate::Last if self.volume_averaging => {
+            StressUpdate::Last if self.volume_averaging.acts() => {
                 let start = self.particles.positions.clone();
                 self.move_and_deform_particles(dt, damping);
                 let moved = std::mem::replace(&mut self.particles.positions, start);

@@ -3,23 +3,57 @@
 use crate::transfer::{Moving, NodeSums, Sum, gather_cells};
 use crate::{Basis, Medium, Member, NO_NODE, Particles};
 
-/// Reference and present volume around a node.
+/// What of the volumes of the particles is averaged over the nodes, against volumetric locking.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VolumeAveraging {
+    /// Nothing.
+    #[default]
+    Off,
+    /// The volume ratios J themselves, in every step (Zhao, Jiang & Choo 2023). What is averaged is kept, so that gradients of J, and of the pressure with them, are smoothed on and on: a body at
+    /// rest under its weight loses its pressure.
+    Ratios,
+    /// Their changes in a step: J keeps the gradients that it has.
+    Changes,
+}
+
+impl VolumeAveraging {
+    /// Whether anything is averaged.
+    pub(crate) fn acts(self) -> bool {
+        self != Self::Off
+    }
+}
+
+/// Volume around a node, at the beginning and at the end of what is averaged.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NodeVolume {
-    reference: f64,
-    present: f64,
+    before: f64,
+    after: f64,
 }
 
 impl Sum for NodeVolume {
     #[inline(always)]
     fn merge(&mut self, other: &Self) {
-        self.reference += other.reference;
-        self.present += other.present;
+        self.before += other.before;
+        self.after += other.after;
     }
 }
 
-/// F_p ← (J̄_p / J_p)^{1/D} F_p with J̄_p = Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q), then whatever the medium admits of
-/// it (Zhao, Jiang & Choo 2023: the F̄ method of de Souza Neto et al. 1996, with averages over the grid).
+/// The volume ratios before the particles deform, where their changes are averaged.
+pub(crate) fn keep_volume_ratios<const D: usize, M: Medium<D>>(
+    averaging: VolumeAveraging,
+    medium: &M,
+    particles: &Particles<D, M::State>,
+    ratios: &mut Vec<f64>,
+) {
+    ratios.clear();
+    if averaging == VolumeAveraging::Changes {
+        let each = particles.deformation_gradients.iter().zip(&particles.states);
+        ratios.extend(each.map(|(deformation, state)| medium.volume_ratio(deformation, state)));
+    }
+}
+
+/// F_p ← (J̄_p / J_p)^{1/D} F_p with J̄_p = J'_p Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q J'_q), then whatever the medium admits of it: J' are the volume ratios `before` the step where their changes
+/// are averaged, 1 where `before` is empty (Zhao, Jiang & Choo 2023: the F̄ method of de Souza Neto et al. 1996, with averages over the grid).
 ///
 /// J is the law's: for a plastic law in plane strain the elastic part of F alone does not have it.
 ///
@@ -30,9 +64,11 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     basis: &B,
     medium: &M,
     moving: &mut Particles<D, M::State>,
+    before: &[f64],
     node_volumes: &mut NodeSums<NodeVolume>,
 ) {
     let particles = &*moving;
+    let before = |p: usize| before.get(p).copied().unwrap_or(1.0);
     node_volumes.scatter_cells(
         basis,
         move |cell, particles_of_cell, stencil, (collected, volumes): &mut (B::Cell, [Vec<f64>; 2])| {
@@ -50,12 +86,12 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
                     particle: p,
                     x: &particles.positions[p],
                 };
-                basis.deposit_scalars(member, [reference, reference * ratio], sums);
+                basis.deposit_scalars(member, [reference * before(p), reference * ratio], sums);
             }
-            let [reference, present] = &*volumes;
-            stencil.for_each_with(reference.iter().zip(present), |node, (reference, present)| {
-                node.reference += reference;
-                node.present += present;
+            let [before, after] = &*volumes;
+            stencil.for_each_with(before.iter().zip(after), |node, (before, after)| {
+                node.before += before;
+                node.after += after;
             });
         },
     );
@@ -75,8 +111,9 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
                     particle: p,
                     x: &data.positions[k],
                 };
-                let average = basis.interpolate_scalar(member, ratios.seen_by(own));
-                let ratio = average / own;
+                let change = own / before(p);
+                let average = basis.interpolate_scalar(member, ratios.seen_by(change));
+                let ratio = average / change;
                 let trial = if ratio > 0.0 && ratio < f64::INFINITY {
                     *deformation * ratio.powf(1.0 / D as f64)
                 } else {
@@ -88,7 +125,7 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     );
 }
 
-/// Volume ratios at the nodes of a cell, by place.
+/// What the volume around the nodes of a cell is over what it was, by place.
 #[derive(Default)]
 struct Ratios {
     values: Vec<f64>,
@@ -107,10 +144,10 @@ impl Ratios {
             } else {
                 nodes[number as usize]
             };
-            if node.reference <= 0.0 {
+            if node.before <= 0.0 {
                 self.unknown.push(place);
             }
-            self.values.push(node.present / node.reference);
+            self.values.push(node.after / node.before);
         }
     }
 

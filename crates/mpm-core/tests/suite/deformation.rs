@@ -1,6 +1,8 @@
 //! When and how particles deform: the orders of a step, averaged volume ratios, moving least squares, materials with memory.
 
-use mpm_core::{Apic, Basis, Continuum, Flip, Medium, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer};
+use mpm_core::{
+    Apic, Basis, Continuum, Flip, Medium, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer, VolumeAveraging,
+};
 use mpm_kernels::{Cubic, Linear, Quadratic, SecondMoment, Spline};
 use mpm_materials::{DeformationError, ElasticModuli, Law, NeoHookean};
 use mpm_tensor::Matrix;
@@ -8,6 +10,8 @@ use mpm_tensor::Matrix;
 use crate::scenes::{AnyOrder, Pull, Solid, bits, free, neo_hookean, uniform_cloud};
 
 const COUNT: usize = 300;
+
+const ALL: [VolumeAveraging; 3] = [VolumeAveraging::Off, VolumeAveraging::Ratios, VolumeAveraging::Changes];
 
 fn body<S: Spline<W>, T: Transfer<2>, M: Medium<2, State = ()>, const W: usize>(
     transfer: T,
@@ -33,7 +37,7 @@ fn any_order(young: f64) -> AnyOrder<2> {
 }
 
 /// Where the particles are at time 0.04.
-fn after<T: Transfer<2>>(transfer: T, order: StressUpdate, averaging: bool, steps: usize) -> Vec<[f64; 2]> {
+fn after<T: Transfer<2>>(transfer: T, order: StressUpdate, averaging: VolumeAveraging, steps: usize) -> Vec<[f64; 2]> {
     let mut body = body::<Quadratic, _, _, 3>(transfer, any_order(20.0));
     body.stress_update = order;
     body.volume_averaging = averaging;
@@ -53,7 +57,7 @@ fn distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
 
 #[test]
 fn the_orders_of_a_step_differ_by_the_time_step() {
-    for averaging in [false, true] {
+    for averaging in ALL {
         let reference = after(Flip::blend(1.0), StressUpdate::Last, averaging, 192);
         for order in [StressUpdate::First, StressUpdate::Last, StressUpdate::ModifiedLast] {
             let coarse = distance(&after(Flip::blend(1.0), order, averaging, 8), &reference);
@@ -63,42 +67,54 @@ fn the_orders_of_a_step_differ_by_the_time_step() {
     }
 }
 
-/// J̄ by sums over all pairs of particles and nodes.
+/// J̄ by sums over all pairs of particles and nodes, from particles that have been strained.
 #[test]
 fn averaged_volume_ratios_are_those_of_the_formula() {
-    let mut averaged = body::<Quadratic, _, _, 3>(Pic, any_order(20.0));
-    let mut plain = body::<Quadratic, _, _, 3>(Pic, any_order(20.0));
-    averaged.volume_averaging = true;
-    averaged.step(&free(0.01)).unwrap();
-    plain.step(&free(0.01)).unwrap();
+    let strained = |averaging| {
+        let mut body = body::<Quadratic, _, _, 3>(Pic, any_order(20.0));
+        let strain = |x: &[f64; 2]| Matrix([[1.0 + 0.02 * x[0], 0.01], [0.0, 1.0 - 0.03 * x[1] * x[0]]]);
+        body.particles.deformation_gradients = body.particles.positions.iter().map(strain).collect();
+        body.volume_averaging = averaging;
+        let before: Vec<f64> = body
+            .particles
+            .deformation_gradients
+            .iter()
+            .map(Matrix::determinant)
+            .collect();
+        body.step(&free(0.01)).unwrap();
+        let after = body.particles.in_creation_order(&body.particles.deformation_gradients);
+        (before, after)
+    };
     let start = uniform_cloud::<2>(COUNT, 1.0, 11);
-    let trial = plain
-        .particles
-        .in_creation_order(&plain.particles.deformation_gradients);
+    let (before, trial) = strained(VolumeAveraging::Off);
     let weight = |x: &[f64; 2], i: i32, j: i32| {
         Quadratic.value(x[0] / 0.2 - f64::from(i)) * Quadratic.value(x[1] / 0.2 - f64::from(j))
     };
-    let result = averaged
-        .particles
-        .in_creation_order(&averaged.particles.deformation_gradients);
-    for p in 0..COUNT {
-        let mut mean = 0.0;
-        for i in -2..8 {
-            for j in -2..8 {
-                let (mut present, mut reference) = (0.0, 0.0);
-                for q in 0..COUNT {
-                    let w = weight(&start[q], i, j);
-                    reference += w;
-                    present += w * trial[q].determinant();
-                }
-                if reference > 0.0 {
-                    mean += weight(&start[p], i, j) * present / reference;
+    for averaging in [VolumeAveraging::Ratios, VolumeAveraging::Changes] {
+        let was = |q: usize| {
+            if averaging == VolumeAveraging::Changes {
+                before[q]
+            } else {
+                1.0
+            }
+        };
+        let result = strained(averaging).1;
+        for p in 0..COUNT {
+            let mut mean = 0.0;
+            for i in -2..8 {
+                for j in -2..8 {
+                    let sum =
+                        |of: &dyn Fn(usize) -> f64| (0..COUNT).map(|q| weight(&start[q], i, j) * of(q)).sum::<f64>();
+                    let (old, new) = (sum(&was), sum(&|q| trial[q].determinant()));
+                    if old > 0.0 {
+                        mean += weight(&start[p], i, j) * new / old;
+                    }
                 }
             }
+            let expected = trial[p] * (was(p) * mean / trial[p].determinant()).sqrt();
+            assert!((result[p] - expected).frobenius_norm() < 1e-13, "{averaging:?}");
+            assert!((result[p].determinant() - was(p) * mean).abs() < 1e-13, "{averaging:?}");
         }
-        let expected = trial[p] * (mean / trial[p].determinant()).sqrt();
-        assert!((result[p] - expected).frobenius_norm() < 1e-13);
-        assert!((result[p].determinant() - mean).abs() < 1e-13);
     }
 }
 
@@ -172,7 +188,7 @@ impl Law<2> for Remembering {
     }
 }
 
-fn remembering(viscosity: f64, order: StressUpdate, averaging: bool) -> Particles<2, (u32, f64)> {
+fn remembering(viscosity: f64, order: StressUpdate, averaging: VolumeAveraging) -> Particles<2, (u32, f64)> {
     let mut particles = Particles::at_rest(uniform_cloud::<2>(COUNT, 1.0, 11), 1.0);
     particles.velocities = particles.positions.iter().map(|x| [2.0 * x[0], 2.0 * x[1]]).collect();
     let states = (0..COUNT).map(|_| (0, viscosity)).collect();
@@ -191,7 +207,7 @@ fn remembering(viscosity: f64, order: StressUpdate, averaging: bool) -> Particle
 #[test]
 fn a_material_remembers_and_feels_the_rate_of_deformation() {
     for order in [StressUpdate::First, StressUpdate::Last, StressUpdate::ModifiedLast] {
-        for averaging in [false, true] {
+        for averaging in ALL {
             let thin = remembering(0.0, order, averaging);
             let thick = remembering(0.5, order, averaging);
             assert!(thin.states.iter().all(|state| state.0 == 5), "once per step, {order:?}");

@@ -1,6 +1,6 @@
 //! The body of a scene as the reduced dynamics see it.
 
-use mpm_core::PrescribedVelocity;
+use mpm_core::{PrescribedVelocity, VolumeAveraging};
 use mpm_kernels::UniformGrid;
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
 use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, TransferKind};
@@ -155,7 +155,11 @@ fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineEr
             "walls, obstacles, loads, barrier",
             "left out",
         ),
-        (!scene.volume_averaging, "volume_averaging", "false"),
+        (
+            scene.volume_averaging == VolumeAveraging::Off,
+            "volume_averaging",
+            "false",
+        ),
         (scene.time.damping == 0.0, "time.damping", "0"),
         (!turned, "bodies.rotation, bodies.deformation", "left out"),
         (!moving, "bodies.velocity", "left out"),

@@ -14,10 +14,12 @@ mod read;
 mod region;
 mod time;
 mod velocity;
+mod volume_averaging;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use mpm_core::VolumeAveraging;
 use serde::Deserialize;
 
 pub use barrier::{BarrierAgainst, BarrierIntegration, BarrierTable};
@@ -56,9 +58,10 @@ pub struct Scene {
     /// Time T over which gravity grows as t / T. Default 0: all of it from the start.
     #[serde(default)]
     pub gravity_ramp: f64,
-    /// Averaging of volume ratios over cells (F-bar), against locking of nearly incompressible materials.
-    #[serde(default)]
-    pub volume_averaging: bool,
+    /// Averaging of volumes over nodes (F-bar), against locking of nearly incompressible materials: `false`, `"changes"` of volume ratios, or the ratios themselves (`true`, `"ratios"`), which
+    /// smooths the pressure on and on.
+    #[serde(default, deserialize_with = "volume_averaging::read")]
+    pub volume_averaging: VolumeAveraging,
     /// Where particles may be. Default: the box around the mesh.
     pub domain: Option<DomainTable>,
     /// The background grid.
