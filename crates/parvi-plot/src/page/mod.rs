@@ -22,7 +22,7 @@ pub struct Page {
     pub figures: Vec<(String, String)>,
     /// The most important of the page, by name; it is no part of the text.
     pub summary: Vec<(String, String)>,
-    /// What [`part`](Self::part) and [`drawing`](Self::drawing) choose from.
+    /// What [`part`](Self::part), [`part_of`](Self::part_of) and [`drawing`](Self::drawing) choose from.
     prose: Prose,
 }
 
@@ -36,7 +36,7 @@ impl Page {
     }
 
     /// A page whose prose is a Markdown text with `{name}` where values go. The title and what stands below it are written; of the rest a section is written when
-    /// [`part`](Self::part) asks for it, a line `![caption](name.svg)` is the caption of a figure, and a table is that of [`lines`](Self::lines).
+    /// [`part`](Self::part) or [`part_of`](Self::part_of) asks for it, a line `![caption](name.svg)` is the caption of a figure, and a table is that of [`lines`](Self::lines).
     pub fn of(prose: &str, values: &[(&str, &dyn Display)]) -> Self {
         let prose = Prose::new(prose, values);
         let mut page = Self {
@@ -44,21 +44,31 @@ impl Page {
             prose,
             ..Self::default()
         };
-        page.paragraphs("", &[]);
+        page.paragraphs("", str::to_owned);
         page
     }
 
     /// A section of the prose: `## name` with its heading, `### name` without.
     pub fn part(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
-        if self.prose.has_heading(name) {
-            self.heading(&filled(name, values));
-        }
-        self.paragraphs(name, values);
+        self.written(name, |text| filled(text, values));
     }
 
-    fn paragraphs(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
+    /// The same with places that are filled as those of a table are: with what a line names, or a statistic of its rows.
+    pub fn part_of<'a>(&mut self, name: &str, line: impl Into<Line<'a>>) {
+        let line = line.into();
+        self.written(name, |text| line.filled(text));
+    }
+
+    fn written(&mut self, name: &str, fill: impl Fn(&str) -> String) {
+        if self.prose.has_heading(name) {
+            self.heading(&fill(name));
+        }
+        self.paragraphs(name, fill);
+    }
+
+    fn paragraphs(&mut self, name: &str, fill: impl Fn(&str) -> String) {
         match self.prose.paragraphs(name) {
-            Some(paragraphs) => paragraphs.iter().for_each(|text| self.paragraph(filled(text, values))),
+            Some(paragraphs) => paragraphs.iter().for_each(|text| self.paragraph(fill(text))),
             None => self.paragraph(absent(name)),
         }
     }

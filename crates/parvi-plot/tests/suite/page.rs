@@ -69,6 +69,41 @@ fn a_table_of_the_prose_says_what_stands_in_every_line() {
 }
 
 #[test]
+fn prose_says_statistics_of_rows_as_tables_do() {
+    let prose = "# A\n\n## Errors\n\nAt most {farthest error} by {method}, of size {median size} ({bound} asked).\n";
+    let rows = [-2.0, 0.5].map(|error| Row::of("a").with("error", error));
+    let rows: Rows<'_> = rows.iter().collect();
+    let mut page = Page::of(prose, &[("bound", &3)]);
+    page.part_of("Errors", Line::from(rows).with("method", "b"));
+    page.part_of("Others", Line::default());
+    assert_eq!(
+        page.text,
+        "# A\n\n## Errors\n\nAt most 2.00 by b, of size – (3 asked).\n\nThe prose has no `Others`.\n"
+    );
+}
+
+#[test]
+fn a_line_for_each_combination_that_there_is() {
+    let row =
+        |method: &str, n: usize, error: f64| Row::default().with("method", method).with("n", n).with("error", error);
+    let rows = [row("b", 2, 1.0), row("c", 1, 3.0), row("b", 1, 2.0)];
+    let rows: Rows<'_> = rows.iter().collect();
+    let prose = "# A\n\n### b\n\n| of | other |\n| --- | --- |\n| {method}{n}: {error} | {better} to {worse} |\n";
+    let mut page = Page::of(prose, &[]);
+    let contest = |line: &Line<'_>| line.rows.against(&rows.with("n", 1_usize), ("error", &["method"]), 1.0);
+    let lines = rows.lines_of(["method", "n"]).into_iter();
+    page.lines("b", lines.map(|line| line.clone().with_contest(contest(&line))));
+    for line in [
+        "| b2: 1.00 | 1 to 0 |",
+        "| b1: 2.00 | 0 to 0 |",
+        "| c1: 3.00 | 0 to 0 |",
+    ] {
+        assert!(page.text.contains(line), "{line} is missing in {}", page.text);
+    }
+    assert!(!page.text.contains("c2"));
+}
+
+#[test]
 fn a_list_without_lines_says_so_or_nothing() {
     let mut page = Page::default();
     page.list("Misses", &[], None);
