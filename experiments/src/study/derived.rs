@@ -24,7 +24,7 @@ const REACH: f64 = 3.0;
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 
-const DERIVED: [Derived; 27] = [
+const DERIVED: [Derived; 28] = [
     // The energy distance.
     ("energy_above_zero", |row| {
         row.number(ENERGY).filter(|energy| *energy > 0.0)
@@ -54,6 +54,7 @@ const DERIVED: [Derived; 27] = [
     ("nanoseconds_per_particle", |row| {
         Some(row.number("wall_seconds_per_step")? / row.number("particles")? * 1e9)
     }),
+    ("failed", |row| Some(f64::from(u8::from(!row.finished())))),
     ("stencil", |row| Some(stencil(row.count("dim")?))),
     // A constant α, which is stated as a number, and E of a law that has it.
     ("alpha", |row| row.text("schedule").parse().ok()),

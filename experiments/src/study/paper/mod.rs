@@ -108,21 +108,19 @@ fn end(row: &mut Row, errors: Attempt<Errors>, step: Option<usize>) -> Option<Er
 }
 
 fn reason(error: &CommandError) -> Reason {
-    match error {
-        CommandError::NotFinite { .. } => ("not finite", None),
-        CommandError::Sample(SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. }) => {
-            ("not finite", Some(*step))
-        }
-        CommandError::Sample(SampleError::Mechanics { step, source }) => {
-            let text = format!("{source:?}");
-            let word = match () {
-                () if text.contains("NaN") || text.contains("inf") => "not finite",
-                () if text.starts_with("PositionOutOfRange") => "outside range",
-                () if text.starts_with("Deformation") => "turned inside out",
-                () => "other",
-            };
-            (word, Some(*step))
-        }
-        _ => ("other", None),
-    }
+    let CommandError::Sample(error) = error else {
+        let overflows = matches!(error, CommandError::NotFinite { .. });
+        return (if overflows { "not finite" } else { "other" }, None);
+    };
+    let word = match error {
+        SampleError::ScoreNotFinite { .. } | SampleError::Diverged { .. } => "not finite",
+        SampleError::Mechanics { source, .. } => match format!("{source:?}") {
+            text if text.contains("NaN") || text.contains("inf") => "not finite",
+            text if text.starts_with("PositionOutOfRange") => "outside range",
+            text if text.starts_with("Deformation") => "turned inside out",
+            _ => "other",
+        },
+        _ => "other",
+    };
+    (word, error.step())
 }

@@ -57,29 +57,19 @@ impl<'a> Findings<'a> {
 
 /// The rows by what differs among their settings, target and seed apart, in the order of the cases.
 pub fn groups<'a>(rows: &Rows<'a>) -> Vec<(String, Rows<'a>)> {
-    let of_rivals = rows.first().is_some_and(is_rival);
     // The methods are named even where there is only one.
     let is_told = |(column, _): &(&str, &str)| match *column {
         "method" => true,
-        "variant" => !of_rivals,
-        "particles" => rows.words("particles").len() > 1,
-        column => !of_rivals && rows.words(column).len() > 1,
+        "variant" => !rows.iter().all(is_rival),
+        column => rows.words(column).len() > 1,
     };
     let told: Vec<(&str, &str)> = PARTS.into_iter().filter(is_told).collect();
-    let label = |row: &Row| {
-        let named = |(column, symbol): &(&str, &str)| format!("{symbol}{}", part(row, column));
-        told.iter().map(named).collect::<Vec<_>>().join(", ")
-    };
-    rows.by_name(label)
+    let named = |row: &Row, (column, symbol): &(&str, &str)| format!("{symbol}{}", part(row, column));
+    rows.by_name(|row| told.iter().map(|told| named(row, told)).collect::<Vec<_>>().join(", "))
 }
 
 /// A line per setting, over targets and seeds.
-pub fn settings(rows: &Rows<'_>, page: &mut Page) {
-    let lines = groups(rows).into_iter().map(|(label, here)| {
-        // Rivals are not looked at on their way.
-        let is_body = !here.iter().all(is_rival);
-        let best = is_body.then(|| here.cell("median of all best_ratio"));
-        Line::from(here).with("setting", label).with("best", best)
-    });
-    page.lines("settings", lines);
+pub fn settings<'a>(rows: &Rows<'a>) -> Vec<Line<'a>> {
+    let line = |(label, here)| Line::from(here).with("setting", label);
+    groups(rows).into_iter().map(line).collect()
 }

@@ -110,11 +110,8 @@ fn end<const D: usize>(row: &mut Row, own: &Frame<D>, frame: &Frame<D>, samples:
 /// Notes a typed error of the sampler.
 fn fail(row: &mut Row, error: &SampleError) {
     match error {
-        SampleError::Mechanics { step, source } => refuse(row, source, Some(*step), error),
-        SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. } => {
-            refuse(row, error, Some(*step), error);
-        }
-        _ => refuse(row, error, None, error),
+        SampleError::Mechanics { source, .. } => refuse(row, source, error.step(), error),
+        _ => refuse(row, error, error.step(), error),
     }
 }
 
