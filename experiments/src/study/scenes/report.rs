@@ -2,9 +2,8 @@
 
 use super::configuration::Scenes;
 use super::family::Family;
-use super::figure;
 use super::history;
-use crate::plots::judgement::{Judgement, MeasuredSeries, Verdict, orders};
+use crate::plots::judgement::{Judgement, MeasuredSeries, orders};
 use crate::plots::page::{escaped, number_of, telling_digits};
 use crate::study::prelude::*;
 
@@ -17,7 +16,7 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     let mut lines = Vec::new();
     let (mut judged, mut passed) = (0, 0);
     for (family, series) in families.iter().zip(&all) {
-        for verdict in verdicts(family, series) {
+        for verdict in family.asked().verdicts(series) {
             judged += 1;
             passed += usize::from(verdict.pass);
             let line = Line::default().with("family", family.title.as_str());
@@ -44,19 +43,6 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     Ok(page.with("verdict", verdict))
 }
 
-/// What the family's judgements say; one that finds nothing to judge is not kept.
-fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
-    let judged = || series.iter().filter(|series| series.is_among(&family.judged));
-    let of = |judgement: &Judgement| {
-        let mut verdicts: Vec<Verdict> = judged().flat_map(|series| judgement.judge(series)).collect();
-        if verdicts.is_empty() {
-            verdicts.push(Verdict::of_nothing(family.judged.join(" or ")));
-        }
-        verdicts
-    };
-    family.judgements.iter().flat_map(of).collect()
-}
-
 /// Figure and tables of one family.
 fn section(
     page: &mut Page,
@@ -71,7 +57,9 @@ fn section(
     }
     let name = format!("{}.svg", family.name);
     let caption = format!("{}: {}.", family.title, family.y_label);
-    page.figure(&name, &caption, multiples(&figure::plot(family, series)));
+    let labels = [family.x_label.as_deref().unwrap_or_default(), &family.y_label];
+    let plot = family.asked().plot(series, &family.title, labels);
+    page.figure(&name, &caption, multiples(&plot));
     if let Some(plot) = history::plot(family, rows, directory)? {
         let name = format!("{}_history.svg", family.name);
         let caption = format!("{}: over time.", family.title);
@@ -113,44 +101,5 @@ fn digits(value: f64, reference: Option<f64>, significant: usize) -> String {
             if compared.len() < told.len() { told } else { compared }
         }
         _ => told,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plots::judgement::Point;
-
-    #[test]
-    fn a_judgement_that_finds_nothing_to_judge_is_not_kept() {
-        let family: Family = toml::from_str(
-            "name = \"a\"\ntitle = \"A\"\ny-label = \"y\"\nread = { quantity = \"q\" }\n\
-             judgements = [{ kind = \"bound\", reference = 0.0, tolerance = 2.0, at = [1.0] }]\njudged = [\"graded, local\"]",
-        )
-        .unwrap();
-        let point = Point {
-            x: 1.0,
-            value: 0.5,
-            reference: None,
-            tolerance: None,
-        };
-        let series = MeasuredSeries {
-            label: "graded, local".to_owned(),
-            points: vec![point],
-            failed: Vec::new(),
-        };
-        let judged = |names: &[&str]| {
-            let judged = names.iter().map(|name| (*name).to_owned()).collect();
-            verdicts(
-                &Family {
-                    judged,
-                    ..family.clone()
-                },
-                std::slice::from_ref(&series),
-            )
-        };
-        let unknown = judged(&["graded, global"]);
-        assert!(unknown.len() == 1 && !unknown[0].pass && unknown[0].reached == "none");
-        assert!(judged(&["graded"])[0].pass && judged(&["graded, local"])[0].pass);
     }
 }
