@@ -51,7 +51,10 @@ fn sources(directory: &Path) -> String {
 fn tables_ask_for_what_there_is() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let studies = here.join("src/study");
-    let of_all = sources(&studies) + &sources(&here.join("../crates/parvi-plot/src/page"));
+    let of_all = sources(&studies)
+        + &["page", "judgement"]
+            .map(|part| sources(&here.join("../crates/parvi-plot/src").join(part)))
+            .concat();
     let mut tables = 0;
     for directory in std::fs::read_dir(&studies).unwrap().map(|entry| entry.unwrap().path()) {
         let Ok(prose) = std::fs::read_to_string(directory.join("report.md")) else {

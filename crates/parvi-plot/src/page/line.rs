@@ -77,6 +77,13 @@ impl<'a> Line<'a> {
         self.with_places(text).0
     }
 
+    /// The first of some texts for whose places there is something, else the last.
+    pub(super) fn item(&self, texts: &[String]) -> String {
+        let is_whole = |text: &&String| self.with_places(text).1[1] == 0;
+        let text = texts.iter().find(is_whole).or(texts.last());
+        text.map(|text| self.filled(text)).unwrap_or_default()
+    }
+
     /// The same with the number of its places, and of those for which there is nothing.
     fn with_places(&self, text: &str) -> (String, [usize; 2]) {
         let mut parts = text.split('{');

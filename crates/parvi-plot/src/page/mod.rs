@@ -10,7 +10,7 @@ use crate::PlotError;
 use prose::{Prose, filled};
 
 pub(crate) use cell::exponent;
-pub use cell::{Cell, MISSING, counted, escaped, number, number_of, percent, telling_digits};
+pub use cell::{Cell, MISSING, counted, escaped, number, number_beside, number_of, percent, telling_digits};
 pub use line::{Line, each};
 
 /// A page that grows by paragraphs, tables and figures.
@@ -22,7 +22,7 @@ pub struct Page {
     pub figures: Vec<(String, String)>,
     /// The most important of the page, by name; it is no part of the text.
     pub summary: Vec<(String, String)>,
-    /// What [`part`](Self::part), [`part_of`](Self::part_of) and [`drawing`](Self::drawing) choose from.
+    /// What [`part`](Self::part), [`part_of`](Self::part_of), [`list_of`](Self::list_of) and [`drawing`](Self::drawing) choose from.
     prose: Prose,
 }
 
@@ -103,6 +103,25 @@ impl Page {
     ) {
         self.part(name, &[]);
         self.lines_over(name, repeated, lines);
+    }
+
+    /// A section of the prose that is a list: its items say what stands in every line, of several the first for whose places there is something, else the last.
+    /// What stands before the items is written above the lines, and what stands behind them in their place where there are none; without that not even the heading is.
+    pub fn list_of<'a>(&mut self, name: &str, lines: impl IntoIterator<Item = impl Into<Line<'a>>>) {
+        let Some(paragraphs) = self.prose.paragraphs(name) else {
+            return self.paragraph(absent(name));
+        };
+        let is_item = |text: &String| text.starts_with("- ");
+        let first = paragraphs.iter().position(is_item).unwrap_or(paragraphs.len());
+        let (above, below) = paragraphs.split_at(first);
+        let (items, otherwise): (Vec<String>, Vec<String>) = below.iter().cloned().partition(is_item);
+        let lines: Vec<String> = lines.into_iter().map(|line| line.into().item(&items)).collect();
+        let written = if lines.is_empty() { &otherwise[..] } else { above };
+        if self.prose.has_heading(name) && !(lines.is_empty() && otherwise.is_empty()) {
+            self.heading(name);
+        }
+        written.iter().for_each(|text| self.paragraph(text));
+        self.items(&lines);
     }
 
     /// A figure whose caption is in the prose.

@@ -1,6 +1,6 @@
 //! Pages from paragraphs and from a Markdown text.
 
-use parvi_plot::page::{Line, Page, counted, each, number_of, telling_digits};
+use parvi_plot::page::{Line, Page, counted, each, number_beside, number_of, telling_digits};
 use parvi_plot::results::{Row, Rows};
 
 #[test]
@@ -104,6 +104,24 @@ fn a_line_for_each_combination_that_there_is() {
 }
 
 #[test]
+fn lists_of_the_prose_say_what_stands_in_every_line() {
+    let prose = "# A\n\n## Misses\n\nThese:\n\n- `{text case}`: {error}\n\n- `{text case}`: {text reason}\n\nNone.\n\n### bare\n\n- {case}\n";
+    let rows = [
+        Row::of("a[1]").with("error", 2.0),
+        Row::of("b").with("reason", "out"),
+        Row::of("c"),
+    ];
+    let mut page = Page::of(prose, &[]);
+    page.list_of("Misses", &rows);
+    page.list_of("Misses", [Row::default(); 0].iter());
+    page.list_of("bare", [Row::default(); 0].iter());
+    page.list_of("bare", &rows[1..2]);
+    let lines = "- `a[1]`: 2.00\n- `b`: out\n- `c`: –\n";
+    let expected = format!("# A\n\n## Misses\n\nThese:\n\n{lines}\n## Misses\n\nNone.\n\n- b\n");
+    assert_eq!(page.text, expected);
+}
+
+#[test]
 fn a_list_without_lines_says_so_or_nothing() {
     let mut page = Page::default();
     page.list("Misses", &[], None);
@@ -137,4 +155,14 @@ fn one_is_counted_as_one_and_digits_tell_values_apart() {
     let digits = telling_digits(&[12.5012, 12.5034, 12.5034]);
     assert_eq!((digits, number_of(12.5012, digits)), (5, "12.501".to_owned()));
     assert_eq!(telling_digits(&[1.0, 1.0 + 1e-12, 2.0]), 3);
+    let beside = |value: f64, reference: Option<f64>| number_beside(value, reference, 3);
+    assert_eq!(
+        [
+            beside(0.5, Some(1.0)),
+            beside(0.5, Some(0.0)),
+            beside(0.5, None),
+            beside(5e3, Some(1.0))
+        ],
+        ["0.5000", "0.500", "0.500", "5000"]
+    );
 }

@@ -4,7 +4,7 @@ use super::configuration::Scenes;
 use super::family::Family;
 use super::history;
 use crate::plots::judgement::{Judgement, MeasuredSeries, orders};
-use crate::plots::page::{escaped, number_of, telling_digits};
+use crate::plots::page::{escaped, number_beside, telling_digits};
 use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
@@ -13,22 +13,21 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     let of = |family: &Family| MeasuredSeries::of(&rows.with("family", family.name.as_str()));
     let all: Vec<Vec<MeasuredSeries>> = families.iter().map(of).collect();
     let mut page = directory.page(include_str!("report.md"), &[("title", &study.title)]);
-    let mut lines = Vec::new();
-    let (mut judged, mut passed) = (0, 0);
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    let mut passed = 0;
     for (family, series) in families.iter().zip(&all) {
-        for verdict in family.asked().verdicts(series) {
-            judged += 1;
-            passed += usize::from(verdict.pass);
-            let line = Line::default().with("family", family.title.as_str());
-            let line = line.with("of", verdict.of).with("asked", verdict.asked);
-            let line = line.with("reached", verdict.reached);
-            lines.push(line.with("pass", if verdict.pass { "yes" } else { "**no**" }));
-        }
+        let verdicts = family.asked().verdicts(series);
+        passed += verdicts.iter().filter(|verdict| verdict.pass).count();
+        let line = |verdict| Line::from(verdict).with("family", family.title.as_str());
+        lines.extend(verdicts.into_iter().map(line));
     }
+    let judged = lines.len();
     page.section("Judgements", &[], lines);
     let seconds = format!("{:.0}", rows.values(SECONDS).iter().sum::<f64>());
-    let values: [(&str, &dyn Display); 3] = [("passed", &passed), ("judged", &judged), ("seconds", &seconds)];
-    page.part("kept", &values);
+    page.part(
+        "kept",
+        &[("passed", &passed), ("judged", &judged), ("seconds", &seconds)],
+    );
     for (family, series) in families.iter().zip(&all) {
         section(&mut page, family, series, rows, directory)?;
     }
@@ -86,20 +85,8 @@ fn order_line(series: &MeasuredSeries) -> Line<'static> {
 /// A run, its value with as many digits as it takes to tell it from others.
 fn line(row: &Row, significant: usize) -> Line<'_> {
     let value = row.number("value");
-    let value = value.map(|value| digits(value, row.number("reference"), significant));
+    let value = value.map(|value| number_beside(value, row.number("reference"), significant));
     let ended = value.as_ref().map_or(row.text("reason"), |_| "at the end");
     let x = row.number("x").unwrap_or(f64::NAN).to_string();
     Line::from(row).with("x", x).with("digits", value).with("ended", ended)
-}
-
-/// As many digits as it takes to compare with a reference: one more than usual where there is one that is not 0.
-fn digits(value: f64, reference: Option<f64>, significant: usize) -> String {
-    let told = number_of(value, significant);
-    match reference {
-        Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => {
-            let compared = format!("{value:.4}");
-            if compared.len() < told.len() { told } else { compared }
-        }
-        _ => told,
-    }
 }
