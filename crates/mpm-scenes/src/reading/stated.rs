@@ -172,8 +172,7 @@ impl Reading {
             });
         }
         let column = |run: &FinishedRun, columns: &str, field: &'static str| {
-            let known = || run.series.columns().iter().map(String::as_str);
-            curve(&run.series, columns).map_err(|name| unfit(field, missing(&name, known())))
+            curve(&run.series, columns).map_err(|message| unfit(field, message))
         };
         let own = column(run, self.name(), "column")?;
         let other = other.map(|other| column(other, self.name(), "column")).transpose()?;

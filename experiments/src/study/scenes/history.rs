@@ -20,9 +20,7 @@ pub fn check(family: &Family, series: &Series) -> Result<(), CommandError> {
 
 /// What a panel shows of a series.
 fn found(family: &Family, series: &Series, panel: &HistoryPanel) -> Result<Curve, CommandError> {
-    let known = || series.columns().join("`, `");
-    let message = |name: String| format!("the series has no `{name}`, but `{}`", known());
-    curve(series, &panel.column).map_err(|name| family.refuse("history.column", message(name)))
+    curve(series, &panel.column).map_err(|message| family.refuse("history.column", message))
 }
 
 /// The figure of the runs whose x is among the family's `drawn`, and of the runs that they are compared with; none where nothing is to be drawn.
@@ -43,14 +41,13 @@ pub fn plot(
     let several = drawn.places("x").len() > 1;
     let mut runs: Vec<(String, &str)> = Vec::new();
     for row in drawn.iter() {
-        let (label, x) = (row.text("label"), row.value("x").to_string());
-        let x = Some(x.as_str()).filter(|_| several || label.is_empty());
-        let parts: Vec<&str> = Some(label)
-            .filter(|label| !label.is_empty())
-            .into_iter()
-            .chain(x)
-            .collect();
-        runs.push((parts.join(", "), row.text("scene")));
+        let x = row.value("x").to_string();
+        let label = match row.text("label") {
+            "" => x,
+            label if several => format!("{label}, {x}"),
+            label => label.to_owned(),
+        };
+        runs.push((label, row.text("scene")));
         let against = row.text("against");
         if let Some(other) = &family.read.against
             && runs.iter().all(|(_, scene)| *scene != against)
