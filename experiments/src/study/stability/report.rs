@@ -56,19 +56,21 @@ fn group(row: &Row) -> String {
 
 /// Shares of diverged runs, by one quantity at a time.
 fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
-    let numbers = [
+    let mut shares = |quantity: &str, lines: Vec<Line<'_>>| {
+        let repeated = [each("quantity", [quantity]), each("group", groups)];
+        page.lines_over("shares", &repeated, lines);
+    };
+    for (name, range, column) in [
         ("frame / target's frame", [1e-3, 1e3], "scale"),
         ("time step / default", super::draw::TIME_STEPS, "time_step_factor"),
         ("spacing / default", super::draw::SPACINGS, "spacing_factor"),
         ("start sd", [0.1, 10.0], "start_sd"),
         ("M", [2.0, 2000.0], "particles"),
         ("friction, above 0", [0.01, 100.0], "friction"),
-    ];
-    for (name, range, column) in numbers {
-        let lines = rows.lines_in_cells(column, range, CELLS);
-        page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
+    ] {
+        shares(name, rows.lines_in_cells(column, range, CELLS));
     }
-    let words = [
+    for (name, column) in [
         ("target", "target"),
         ("d", "dim"),
         ("basis", "basis"),
@@ -76,11 +78,9 @@ fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
         ("transfer", "transfer"),
         ("moment correction", "moment_correction"),
         ("elastic law", "material"),
-    ];
-    for (name, column) in words {
-        let lines = rows.sorted(column).into_iter();
-        let lines = lines.map(|(word, here)| Line::from(here).with("label", word));
-        page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
+    ] {
+        let line = |(word, here)| Line::from(here).with("label", word);
+        shares(name, rows.sorted(column).into_iter().map(line).collect());
     }
 }
 
