@@ -74,7 +74,7 @@ impl Page {
     }
 
     /// The table of a section of the prose, whose one line says what stands in every line: text, and in braces what a [`Line`] names or a
-    /// statistic of its rows. Without lines it is a header. A cell of which no place has a value is [`MISSING`]; a place in brackets that has none
+    /// statistic of its rows; several lines are written for each. Without lines it is a header. A cell of which no place has a value is [`MISSING`]; a place in brackets that has none
     /// falls away with them.
     pub fn lines<'a>(&mut self, part: &str, lines: impl IntoIterator<Item = impl Into<Line<'a>>>) {
         self.lines_over(part, &[], lines);
@@ -87,10 +87,14 @@ impl Page {
         repeated: &[(&str, Vec<String>)],
         lines: impl IntoIterator<Item = impl Into<Line<'a>>>,
     ) {
-        let Some((header, cells)) = self.prose.table(part, repeated) else {
+        let Some((header, texts)) = self.prose.table(part, repeated) else {
             return self.paragraph(absent(part));
         };
-        let rows: Vec<Vec<String>> = lines.into_iter().map(|line| line.into().cells(&cells)).collect();
+        let mut rows = Vec::new();
+        for line in lines {
+            let line = line.into();
+            rows.extend(texts.iter().map(|cells| line.cells(cells)));
+        }
         self.table(&header, &rows);
     }
 

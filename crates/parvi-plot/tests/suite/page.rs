@@ -69,6 +69,18 @@ fn a_table_of_the_prose_says_what_stands_in_every_line() {
 }
 
 #[test]
+fn a_table_of_the_prose_may_have_several_lines() {
+    let prose =
+        "# A\n\n### b\n\n| quantity | {n} |\n| --- | --- |\n| error | {error where n = {n}} |\n| asked | < {n} |\n";
+    let rows = [1_usize, 2].map(|n| Row::default().with("n", n).with("error", 0.5 * n as f64));
+    let rows: Rows<'_> = rows.iter().collect();
+    let mut page = Page::of(prose, &[]);
+    page.lines_over("b", &[each("n", [1, 2])], [rows]);
+    let expected = "| quantity | 1 | 2 |\n| --- | ---: | ---: |\n| error | 0.500 | 1.00 |\n| asked | < 1 | < 2 |\n";
+    assert!(page.text.ends_with(expected), "{}", page.text);
+}
+
+#[test]
 fn prose_says_statistics_of_rows_as_tables_do() {
     let prose = "# A\n\n## Errors\n\nAt most {farthest error} by {method}, of size {median size} ({bound} asked).\n";
     let rows = [-2.0, 0.5].map(|error| Row::of("a").with("error", error));

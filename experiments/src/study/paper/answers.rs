@@ -1,5 +1,6 @@
 //! Answers to the paper's open questions, from the rows.
 
+use super::configuration::{BASE, RIVALS};
 use super::table::{Findings, RATIO, TIE, groups, settings};
 use crate::statistics::fit_power_law_of;
 use crate::study::prelude::*;
@@ -10,13 +11,13 @@ pub fn answers(findings: &Findings<'_>, page: &mut Page) {
     page.section("When does it work?", &[], bodies.lines_of(["variant"]));
     targets(findings, page);
     page.heading("Which law suits?");
-    laws(&findings.sweep("material"), page);
+    laws(&findings.of("material"), page);
     page.section("Transient or steady?", &[], bodies.lines_of(["variant"]));
     page.heading("Does annealing help?");
-    annealing(&findings.sweep("schedule"), page);
+    annealing(&findings.of("schedule"), page);
     page.heading("Do modes separate?");
-    modes(&findings.base, &findings.rivals, page);
-    cost(&findings.sweep("cost"), page);
+    modes(&findings.of(BASE), &findings.of(RIVALS), page);
+    cost(&findings.of("cost"), page);
 }
 
 /// The setting with the least median ED².
@@ -27,8 +28,9 @@ fn best<'a>(rows: &Rows<'a>) -> Option<(String, Rows<'a>)> {
 
 /// Per target: the base, the best of all settings, and the rivals.
 fn targets<'a>(findings: &Findings<'a>, page: &mut Page) {
-    let (base, median) = (&findings.base, "median of all final_ratio");
-    let known: Vec<_> = groups(base).into_iter().chain(groups(&findings.rivals)).collect();
+    let (base, rivals) = (findings.of(BASE), findings.of(RIVALS));
+    let known: Vec<_> = groups(&base).into_iter().chain(groups(&rivals)).collect();
+    let median = "median of all final_ratio";
     let mut good = 0;
     let line = |(target, here): (String, Rows<'a>)| {
         let medians = known.iter().map(|(label, rows)| {
@@ -92,25 +94,21 @@ fn modes(base: &Rows<'_>, rivals: &Rows<'_>, page: &mut Page) {
 
 /// Powers of M, N and d in time and memory, beside the paper's.
 fn cost(rows: &Rows<'_>, page: &mut Page) {
-    let sizes = ["particles", "active_nodes", "dim"];
-    let line = |name: &str, powers: [Option<String>; 3]| {
-        let powers = ["M", "N", "d"].map(str::to_owned).into_iter().zip(powers);
-        Line::default().with("quantity", name).with_all(powers)
-    };
-    let fit = |name: &str, column: &str| {
+    let fit = |line: Line<'static>, (name, column): (&str, &str)| {
         let known = rows.having(|row| row.number("active_nodes").and(row.number(column)).is_some());
-        let [particles, nodes, dims] = sizes.map(|size| known.values(size));
-        let law = fit_power_law_of(&[&particles, &nodes, &dims], &known.values(column)).ok();
-        let powers = [0, 1, 2].map(|index| law.as_ref().map(|law| exponent_text(law, index)));
-        line(name, powers).with("quality", law.map(|law| law.r_squared))
+        let sizes = ["particles", "active_nodes", "dim"].map(|size| known.values(size));
+        let law = fit_power_law_of(&sizes.each_ref().map(Vec::as_slice), &known.values(column)).ok();
+        let power = |(index, size)| {
+            (
+                format!("{name} {size}"),
+                law.as_ref().map(|law| exponent_text(law, index)),
+            )
+        };
+        let line = line.with_all(["M", "N", "d"].into_iter().enumerate().map(power));
+        line.with(format!("{name} R²"), law.as_ref().map(|law| law.r_squared))
     };
-    let paper = |name: &str, powers: [&str; 3]| line(name, powers.map(|power| Some(power.to_owned())));
-    let lines = [
-        fit("time per step", "seconds_per_step"),
-        paper("paper: O(M N d²)", ["1", "1", "2"]),
-        fit("memory", "storage_bytes"),
-        paper("paper: O((N + M) d + M d²)", ["≤ 1", "≤ 1", "1 to 2"]),
-    ];
-    page.section("What does it cost?", &[], lines);
+    let quantities = [("time", "seconds_per_step"), ("memory", "storage_bytes")];
+    let line = quantities.into_iter().fold(Line::default(), fit);
+    page.section("What does it cost?", &[], [line]);
     page.lines("settings", settings(rows));
 }

@@ -14,13 +14,6 @@ fn median(rows: &Rows<'_>, column: &str) -> f64 {
     rows.median_of_all(column).unwrap_or(f64::NAN)
 }
 
-/// Lines of `y` over `x`, by what stands in a column.
-fn panel(title: String, rows: &Rows<'_>, by: (&str, &str), x: &str, y: &str) -> MultiplesPanel {
-    let (column, symbol) = by;
-    let line = |(name, here): (String, Rows<'_>)| here.medians(format!("{symbol}{name}"), x, y);
-    MultiplesPanel::new(title, rows.by(column).into_iter().map(line))
-}
-
 /// What says that a run is by one of the paper's algorithms, shorter.
 fn short(text: &str) -> String {
     text.replace("algorithm ", "Alg. ")
@@ -35,7 +28,7 @@ pub fn strength(alpha: &Rows<'_>, stiffness: &Rows<'_>) -> MultiplesPlot {
             format!("{name}: {method}, {}", row.text("variant"))
         };
         for (title, here) in rows.by_name(setting) {
-            let panel = panel(title, &here, ("target", ""), x, RATIO);
+            let panel = MultiplesPanel::new(title, here.medians_by(("", "target"), x, RATIO));
             panels.push(panel.with_level(1.0, "independent draws"));
         }
     }
@@ -92,6 +85,11 @@ fn ratios(labels: Vec<String>, series: Vec<(String, Vec<f64>)>) -> DotPlot {
 /// Time per step over M, a line per dimension, a panel per spacing.
 pub fn cost(rows: &Rows<'_>) -> MultiplesPlot {
     let spacing = |row: &Row| format!("h = {}", super::body::part(row, "spacing"));
-    let of = |(title, here): (String, Rows<'_>)| panel(title, &here, ("dim", "d = "), "particles", "step_microseconds");
-    MultiplesPlot::logarithmic("M", "time per step (µs)").with_panels(rows.by_name(spacing).into_iter().map(of))
+    let panel = |(title, here): (String, Rows<'_>)| {
+        MultiplesPanel::new(
+            title,
+            here.medians_by(("d = ", "dim"), "particles", "step_microseconds"),
+        )
+    };
+    MultiplesPlot::logarithmic("M", "time per step (µs)").with_panels(rows.by_name(spacing).into_iter().map(panel))
 }

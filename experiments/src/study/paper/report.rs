@@ -2,6 +2,7 @@
 
 use super::answers::answers;
 use super::body::is_rival;
+use super::configuration::{BASE, RIVALS};
 use super::table::{Findings, RATIO, TIE, is_good, settings};
 use super::{Paper, figure};
 use crate::plots::dots;
@@ -16,20 +17,20 @@ pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     against_rivals(study, &findings, &mut page);
     answers(&findings, &mut page);
     page.heading("Figures");
-    let (alpha, stiffness) = (findings.sweep("alpha"), findings.sweep("youngs-modulus"));
+    let (alpha, stiffness) = (findings.of("alpha"), findings.of("youngs-modulus"));
     let drawing = multiples(&figure::strength(&alpha, &stiffness));
     page.drawing("strength.svg", drawing);
-    page.drawing("transient.svg", dots(&figure::transient(&findings.base)));
-    let at_rest = findings.sweep("material-at-rest");
+    page.drawing("transient.svg", dots(&figure::transient(&findings.of(BASE))));
+    let at_rest = findings.of("material-at-rest");
     if !at_rest.is_empty() {
         page.drawing("laws.svg", dots(&figure::materials(&at_rest)));
     }
-    let drawing = multiples(&figure::cost(&findings.sweep("cost")));
+    let drawing = multiples(&figure::cost(&findings.of("cost")));
     page.drawing("cost.svg", drawing);
     page.heading("Base and rivals");
-    page.lines("settings", settings(&findings.base));
-    page.lines("settings", settings(&findings.rivals));
-    for (name, rows) in &findings.sweeps {
+    page.lines("settings", settings(&findings.of(BASE)));
+    page.lines("settings", settings(&findings.of(RIVALS)));
+    for (name, rows) in findings.tables.iter().skip(2) {
         if !["material", "schedule", "cost"].contains(name) {
             page.heading(&format!("Case `{name}`"));
             page.lines("settings", settings(rows));
@@ -42,10 +43,11 @@ pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
 
 /// The base beside its rivals, run by run.
 fn against_rivals(study: &Paper, findings: &Findings<'_>, page: &mut Page) {
+    let (base, rivals) = (findings.of(BASE), findings.of(RIVALS));
     let mut lines = Vec::new();
-    for line in findings.base.lines_of(["variant", "method"]) {
+    for line in base.lines_of(["variant", "method"]) {
         for rival in MethodSpecification::labels(&study.rivals) {
-            let others = findings.rivals.with("method", rival);
+            let others = rivals.with("method", rival);
             let alike = ["target", "seed", "particles"];
             let contest = line.rows.against(&others, (RATIO, &alike), TIE);
             if contest.pairs() > 0 {

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::body::{PARTS, is_rival, part};
-use super::configuration::Settings;
 use super::{Paper, Setting};
 use crate::study::prelude::*;
 
@@ -20,37 +19,27 @@ pub fn is_good(row: &Row) -> bool {
 
 /// The rows by what they are of.
 pub struct Findings<'a> {
-    /// The bodies of all cases.
+    /// All bodies.
     pub bodies: Rows<'a>,
-    /// The base.
-    pub base: Rows<'a>,
-    /// The rivals.
-    pub rivals: Rows<'a>,
-    /// The cases of the configuration by their names.
-    pub sweeps: Vec<(&'a str, Rows<'a>)>,
+    /// The rows of each table of the configuration; some may be missing.
+    pub tables: Vec<(&'a str, Rows<'a>)>,
 }
 
 impl<'a> Findings<'a> {
-    /// Looks for the rows of all cases; some may be missing.
+    /// Looks for the rows of all tables.
     pub fn new(study: &'a Paper, rows: &Rows<'a>) -> Result<Self, CommandError> {
         let known: HashMap<&str, &Row> = rows.iter().map(|row| (row.case(), row)).collect();
-        let of = |cases: Vec<Setting>| -> Rows<'a> {
-            let found = |case: &Setting| known.get(case.id().as_str()).copied();
-            cases.iter().filter_map(found).collect()
-        };
-        let name = |sweep: &'a Settings| sweep.name.as_deref().unwrap_or_default();
-        let sweep = |sweep: &'a Settings| Ok((name(sweep), of(study.cases_of(sweep)?)));
+        let found = |case: &Setting| known.get(case.id().as_str()).copied();
+        let of = |(name, cases): (&'a str, Vec<Setting>)| (name, cases.iter().filter_map(found).collect());
         Ok(Self {
-            bodies: of(study.all_cases()?).having(|row| !is_rival(row)),
-            base: of(study.base_cases()?),
-            rivals: of(study.rival_cases()?),
-            sweeps: study.sweeps.iter().map(sweep).collect::<Result<_, CommandError>>()?,
+            bodies: rows.having(|row| !is_rival(row)),
+            tables: study.tables()?.into_iter().map(of).collect(),
         })
     }
 
-    /// The rows of a case of the configuration; none if it has no such case.
-    pub fn sweep(&self, name: &str) -> Rows<'a> {
-        let found = self.sweeps.iter().find(|(known, _)| *known == name);
+    /// The rows of a table; none if there is no such one.
+    pub fn of(&self, table: &str) -> Rows<'a> {
+        let found = self.tables.iter().find(|(known, _)| *known == table);
         found.map(|(_, rows)| rows.clone()).unwrap_or_default()
     }
 }
