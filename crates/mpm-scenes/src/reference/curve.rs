@@ -60,7 +60,7 @@ impl Curve {
         self.times.iter().copied().zip(self.values.iter().copied())
     }
 
-    /// The same with every so manieth point only, so that there are at most `most`.
+    /// Its points, or every second, third, …, so that there are no more than `most`.
     pub fn thinned(&self, most: usize) -> impl Iterator<Item = (f64, f64)> {
         let every = self.times.len().div_ceil(most).max(1);
         self.points().step_by(every)

@@ -125,8 +125,8 @@ fn lists_of_the_prose_say_what_stands_in_every_line() {
     ];
     let mut page = Page::of(prose, &[]);
     page.list_of("Misses", &rows);
-    page.list_of("Misses", [Row::default(); 0].iter());
-    page.list_of("bare", [Row::default(); 0].iter());
+    page.list_of("Misses", Rows::default().iter());
+    page.list_of("bare", Rows::default().iter());
     page.list_of("bare", &rows[1..2]);
     let lines = "- `a[1]`: 2.00\n- `b`: out\n- `c`: –\n";
     let expected = format!("# A\n\n## Misses\n\nThese:\n\n{lines}\n## Misses\n\nNone.\n\n- b\n");
