@@ -11,6 +11,7 @@ use thiserror::Error;
 use crate::options::OptionError;
 use crate::plots::PlotError;
 use crate::statistics::StatisticsError;
+use crate::study::Failure;
 
 /// Everything that ends a command early, with the file, line, field or flag and the value that did it.
 #[derive(Debug, Error)]
@@ -136,6 +137,9 @@ pub enum CommandError {
         /// What is wrong, with line and value.
         message: String,
     },
+    /// A case of a study gave nothing, which is its result.
+    #[error("{}", .0.reason)]
+    Failed(Failure),
     /// Ctrl-C.
     #[error("interrupted{hint}")]
     Interrupted {

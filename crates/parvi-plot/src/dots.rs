@@ -90,6 +90,12 @@ impl DotPlot {
         Self { series, ..self }
     }
 
+    /// The same with a note below.
+    pub fn with_note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
     /// How many values are no numbers.
     pub fn missing(&self) -> usize {
         let values = self.series.iter().flat_map(|series| &series.values);

@@ -383,3 +383,28 @@ pub enum SampleError {
         step: usize,
     },
 }
+
+impl SampleError {
+    /// The step in which a run ended, where it ended in one.
+    pub fn step(&self) -> Option<usize> {
+        match self {
+            Self::ScoreNotFinite { step, .. }
+            | Self::Diverged { step, .. }
+            | Self::Mechanics { step, .. }
+            | Self::Interrupted { step } => Some(*step),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_of_a_step_says_which() {
+        let reason = String::new();
+        assert_eq!(SampleError::Diverged { step: 3, reason }.step(), Some(3));
+        assert_eq!(SampleError::StartWithoutSpread.step(), None);
+    }
+}

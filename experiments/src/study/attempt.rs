@@ -26,6 +26,12 @@ impl Failure {
     }
 }
 
+impl From<Failure> for CommandError {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
 /// What a run gave, or why it gave nothing.
 pub type Attempt<T> = Result<T, Failure>;
 
@@ -47,6 +53,7 @@ pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, Command
 /// As [`attempt`], of the points that stand for a target: a log density that is no number makes none, of this target alone.
 pub fn of_reference<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
     result.map(Ok).or_else(|error| match error {
+        CommandError::Failed(failure) => Ok(Err(failure)),
         CommandError::Target(TargetError::ReferenceFailed { .. }) => Ok(Err(Failure::new(Status::Diverged, error))),
         error => Err(error),
     })

@@ -24,7 +24,7 @@ const REACH: f64 = 3.0;
 /// A name and the number, where the row has what it takes, earlier ones included.
 type Derived = (&'static str, fn(&Row) -> Option<f64>);
 
-const DERIVED: [Derived; 27] = [
+const DERIVED: [Derived; 29] = [
     // The energy distance.
     ("energy_above_zero", |row| {
         row.number(ENERGY).filter(|energy| *energy > 0.0)
@@ -54,6 +54,7 @@ const DERIVED: [Derived; 27] = [
     ("nanoseconds_per_particle", |row| {
         Some(row.number("wall_seconds_per_step")? / row.number("particles")? * 1e9)
     }),
+    ("failed", |row| Some(f64::from(u8::from(!row.finished())))),
     ("stencil", |row| Some(stencil(row.count("dim")?))),
     // A constant α, which is stated as a number, and E of a law that has it.
     ("alpha", |row| row.text("schedule").parse().ok()),
@@ -65,6 +66,7 @@ const DERIVED: [Derived; 27] = [
     ("larger_error", |row| {
         Some(row.number("mean_error")?.max(row.number("deviation_error")?))
     }),
+    ("deviation_percent", |row| Some(100.0 * row.number("deviation_error")?)),
     // What remains of them when the sample that stands for the target is off by three standard errors of its own.
     ("certain_error", |row| {
         let certain = |error: &str, of: &str| Some(row.number(error)? - REACH * row.number(of).unwrap_or(0.0));

@@ -153,6 +153,11 @@ impl StudyDirectory {
         self.path.join("raw").join(name)
     }
 
+    /// The same of one case, by what it is: particles, moments.
+    pub fn raw_of(&self, case: &str, what: &str) -> PathBuf {
+        self.raw(&format!("{case}-{what}.csv"))
+    }
+
     /// A figure, by the name that the report links to.
     pub fn figure(&self, name: &str) -> PathBuf {
         self.path.join("figures").join(name)

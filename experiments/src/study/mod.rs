@@ -48,6 +48,7 @@ use configuration::Configuration;
 use definition::Study;
 use directory::StudyDirectory;
 
+pub use attempt::Failure;
 pub use directory::CONFIGURATION;
 
 use crate::CommandError;

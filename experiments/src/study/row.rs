@@ -31,6 +31,9 @@ pub trait RunRow {
     /// Notes a run without particles.
     fn fail(&mut self, failure: Failure);
 
+    /// The same with the reason in a word or two beside what was said, and the step in which it happened.
+    fn fail_in(&mut self, place: (&str, Option<usize>), failure: Failure);
+
     /// Notes what the sampler says; hands the particles on, if there are some.
     ///
     /// # Errors
@@ -75,6 +78,14 @@ impl RunRow for Row {
         self.set("status", failure.status);
         self.set("note", failure.reason.as_str());
         self.set("reason", failure.reason);
+    }
+
+    fn fail_in(&mut self, (reason, step): (&str, Option<usize>), failure: Failure) {
+        self.set("ending", failure.status);
+        self.set("message", failure.reason.as_str());
+        self.fail(failure);
+        self.set("reason", reason);
+        self.set("failed_step", step);
     }
 
     fn note(&mut self, sampled: Result<Outcome, CommandError>) -> Result<Option<Outcome>, CommandError> {

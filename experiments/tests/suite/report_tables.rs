@@ -28,8 +28,17 @@ fn columns(statistic: &str) -> Vec<&str> {
         .rsplit(' ')
         .next()
         .filter(|name| !["rows", "share"].contains(name));
-    let conditions = parts.filter_map(|part| part.strip_prefix("no ").unwrap_or(part).split(' ').next());
-    own.into_iter().chain(conditions).filter(|name| *name != "_").collect()
+    let conditions = parts.flat_map(|part| {
+        let words: Vec<&str> = part.strip_prefix("no ").unwrap_or(part).split(' ').collect();
+        // What is compared by size is a number or another column.
+        let other = match words[..] {
+            [_, "≤" | ">" | "≥", other] if other.parse::<f64>().is_err() => Some(other),
+            _ => None,
+        };
+        [words.first().copied(), other]
+    });
+    let named = own.into_iter().chain(conditions.flatten());
+    named.filter(|name| *name != "_").collect()
 }
 
 fn sources(directory: &Path) -> String {
@@ -40,8 +49,12 @@ fn sources(directory: &Path) -> String {
 
 #[test]
 fn tables_ask_for_what_there_is() {
-    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/study");
-    let of_all = sources(&studies);
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let studies = here.join("src/study");
+    let of_all = sources(&studies)
+        + &["page", "judgement"]
+            .map(|part| sources(&here.join("../crates/parvi-plot/src").join(part)))
+            .concat();
     let mut tables = 0;
     for directory in std::fs::read_dir(&studies).unwrap().map(|entry| entry.unwrap().path()) {
         let Ok(prose) = std::fs::read_to_string(directory.join("report.md")) else {
@@ -53,9 +66,11 @@ fn tables_ask_for_what_there_is() {
                 .split(|c: char| !c.is_alphanumeric() && c != '_')
                 .any(|word| word == name)
         };
-        for line in prose.lines().filter(|line| line.starts_with("| ")) {
-            tables += 1;
-            for place in places(line) {
+        for line in prose.lines() {
+            let is_table = line.starts_with("| ");
+            tables += usize::from(is_table);
+            // Prose has values of the configuration as well, whose keys are single words.
+            for place in places(line).into_iter().filter(|place| is_table || place.contains(' ')) {
                 let is_named = source.contains(&format!("\"{}", place.replace('_', "{")))
                     || source.contains(&format!("\"{place}\""));
                 let unknown = columns(&place).into_iter().find(|column| !is_known(column));
@@ -70,4 +85,8 @@ fn tables_ask_for_what_there_is() {
     assert!(tables > 50, "{tables}");
     assert_eq!(places("{a} of {b where c = {d}}"), ["a", "d", "b where c = _"]);
     assert_eq!(columns("median b where no c where d ≤ _"), ["b", "c", "d"]);
+    assert_eq!(
+        columns("b where c > d where e = f where g ≤ 1"),
+        ["b", "c", "d", "e", "g"]
+    );
 }

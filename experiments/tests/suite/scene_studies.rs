@@ -271,7 +271,7 @@ fn numbers_that_the_run_does_not_have() {
         (
             "judged = [",
             "history = [{ column = \"speed\", label = \"v\" }]\njudged = [",
-            ["families.bar.history.column", "no `speed`, but `time`"],
+            ["families.bar.history.column", "`speed` is none of `time`"],
         ),
     ] {
         let study = STUDY.replace(from, to).replace("[1.0, 0.5]", "[1.0]");

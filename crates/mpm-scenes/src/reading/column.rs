@@ -61,14 +61,15 @@ fn largest_change(curve: &Curve) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// A column over time, or the sum of several: `kinetic_energy + strain_energy`; an error is the name that there is none of.
+/// A column over time, or the sum of several: `kinetic_energy + strain_energy`; an error says which there is none of, and which there are.
 pub fn curve(series: &Series, columns: &str) -> Result<Curve, String> {
     let mut sum = Curve {
         times: series.column("time").unwrap_or_default(),
         values: vec![0.0; series.rows().len()],
     };
     for name in columns.split(" + ") {
-        let column = series.column(name).ok_or_else(|| name.to_owned())?;
+        let missing = || format!("`{name}` is none of `{}`", series.columns().join("`, `"));
+        let column = series.column(name).ok_or_else(missing)?;
         for (sum, value) in sum.values.iter_mut().zip(column) {
             *sum += value;
         }
@@ -109,6 +110,6 @@ mod tests {
         let mut series = Series::new(["time", "a", "b"].map(str::to_owned).to_vec());
         series.push(vec![0.5, 1.0, 10.0]);
         assert_eq!(curve(&series, "a + b").unwrap().values, [11.0]);
-        assert_eq!(curve(&series, "a + c").unwrap_err(), "c");
+        assert_eq!(curve(&series, "a + c").unwrap_err(), "`c` is none of `time`, `a`, `b`");
     }
 }

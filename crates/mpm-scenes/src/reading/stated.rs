@@ -7,21 +7,43 @@ use serde::Deserialize;
 use toml::Table;
 
 use super::{ReadingError, Take, curve, displacement_error};
-use crate::variation::SceneDocument;
-use crate::{Scene, Series, Summary};
+use crate::output::read_series;
+use crate::variation::{PreparedScene, SceneDocument};
+use crate::{Observer, Outcome, Series, SimulationError, Summary, simulate};
 
 /// A run that came to its end.
 pub struct FinishedRun<'a> {
-    /// All keys of its scene.
-    pub document: &'a SceneDocument,
-    /// The scene.
-    pub scene: &'a Scene,
+    /// Its scene.
+    pub prepared: &'a PreparedScene,
     /// Where its files are.
     pub directory: PathBuf,
     /// How it ended.
     pub summary: Summary,
     /// Its time series.
     pub series: Series,
+}
+
+impl<'a> FinishedRun<'a> {
+    /// Runs a scene to its end, or what is left of its run in the directory; `None` where the observer has stopped it.
+    ///
+    /// # Errors
+    /// As for [`simulate`].
+    pub fn of(
+        prepared: &'a PreparedScene,
+        directory: PathBuf,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Self>, SimulationError> {
+        let summary = simulate(&prepared.scene, &directory, observer)?;
+        if summary.outcome == Outcome::Interrupted {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            series: read_series(&directory)?,
+            prepared,
+            directory,
+            summary,
+        }))
+    }
 }
 
 /// f (r + o + Σ c_k s_k) with a number r of the run, a factor f, an offset o, and multiples c_k of numbers s_k of the scene.
@@ -85,11 +107,15 @@ pub struct Measured {
 }
 
 impl Reading {
-    /// Refuses a reading of nothing, of two things, or of a difference to nothing.
+    /// Refuses a reading of nothing, of two things, of a difference to nothing, or with a number that is none.
     ///
     /// # Errors
     /// [`ReadingError::Unfit`].
     pub fn check(&self) -> Result<(), ReadingError> {
+        let mut given = self.offsets.values().chain(&self.factor).chain(&self.offset);
+        if given.any(|number| number.is_nan()) {
+            return Err(unfit("", "NaN: `factor`, `offset` and `offsets` must be numbers"));
+        }
         let kinds = [self.quantity.is_some(), self.column.is_some(), self.particles.is_some()];
         if kinds.iter().filter(|&&given| given).count() != 1 {
             let expected = "needs one of `quantity`, `column` and `particles`";
@@ -124,8 +150,8 @@ impl Reading {
             return self.read_numbers(run, other);
         }
         let other = other.map(|other| other.directory.as_path());
-        match displacement_error(run.scene, &run.directory, other) {
-            Ok(error) => self.scaled(run.document, error),
+        match displacement_error(&run.prepared.scene, &run.directory, other) {
+            Ok(error) => self.scaled(&run.prepared.document, error),
             Err(ReadingError::Lacks(what)) => Err(unfit("particles", what)),
             Err(error) => Err(error),
         }
@@ -138,7 +164,7 @@ impl Reading {
             let row = validation.iter().find(|row| row.quantity == *name);
             let known = || validation.iter().map(|row| row.quantity.as_str());
             let row = row.ok_or_else(|| unfit("quantity", missing(name, known())))?;
-            let (shift, factor) = (self.shift(run.document)?, self.factor.unwrap_or(1.0));
+            let (shift, factor) = (self.shift(&run.prepared.document)?, self.factor.unwrap_or(1.0));
             return Ok(Measured {
                 value: factor * (row.measured + shift),
                 reference: Some(factor * (row.reference + shift)),
@@ -146,8 +172,7 @@ impl Reading {
             });
         }
         let column = |run: &FinishedRun, columns: &str, field: &'static str| {
-            let known = || run.series.columns().iter().map(String::as_str);
-            curve(&run.series, columns).map_err(|name| unfit(field, missing(&name, known())))
+            curve(&run.series, columns).map_err(|message| unfit(field, message))
         };
         let own = column(run, self.name(), "column")?;
         let other = other.map(|other| column(other, self.name(), "column")).transpose()?;
@@ -155,7 +180,7 @@ impl Reading {
         if let Some(over) = &self.over {
             value /= column(run, over, "over")?.peak();
         }
-        self.scaled(run.document, value)
+        self.scaled(&run.prepared.document, value)
     }
 
     /// f (r + o + Σ c_k s_k).

@@ -60,6 +60,12 @@ impl Curve {
         self.times.iter().copied().zip(self.values.iter().copied())
     }
 
+    /// Its points, or every second, third, …, so that there are no more than `most`.
+    pub fn thinned(&self, most: usize) -> impl Iterator<Item = (f64, f64)> {
+        let every = self.times.len().div_ceil(most).max(1);
+        self.points().step_by(every)
+    }
+
     /// y(t) by linear interpolation; `None` outside the times there are.
     pub fn at(&self, time: f64) -> Option<f64> {
         let after = self.times.partition_point(|&t| t < time);
@@ -108,6 +114,18 @@ mod tests {
             series.push(t, (2.0 * t).sin());
         }
         series
+    }
+
+    #[test]
+    fn a_thinned_series_has_no_more_points_than_asked_for() {
+        let thinned: Vec<_> = sine().thinned(400).collect();
+        assert!(
+            thinned.len() == 334 && thinned[1].0 == sine().times[3],
+            "{}",
+            thinned.len()
+        );
+        assert_eq!(sine().thinned(2000).count(), 1001);
+        assert_eq!(Curve::default().thinned(2).count(), 0);
     }
 
     #[test]

@@ -83,6 +83,14 @@ pub enum SimulationError {
 }
 
 impl SimulationError {
+    /// Whether the run ended before its time, and neither its scene nor a file is at fault.
+    pub fn is_of_run(&self) -> bool {
+        matches!(
+            self,
+            Self::Step { .. } | Self::Diverged { .. } | Self::Penetration { .. }
+        )
+    }
+
     pub(crate) fn file(path: &Path, source: impl Into<std::io::Error>) -> Self {
         Self::File {
             path: path.to_owned(),

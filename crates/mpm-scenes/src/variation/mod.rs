@@ -5,6 +5,8 @@
 mod axis;
 mod document;
 mod keys;
+mod prepared;
 
 pub use axis::{Axis, Choice, Combination, combinations};
 pub use document::SceneDocument;
+pub use prepared::PreparedScene;

@@ -1,10 +1,11 @@
 //! Numbers that are read from a run.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use mpm_scenes::reading::{FinishedRun, Reading, ReadingError};
-use mpm_scenes::variation::SceneDocument;
-use mpm_scenes::{Outcome, Scene, Series, Summary, ValidationRow};
+use mpm_scenes::variation::{PreparedScene, SceneDocument};
+use mpm_scenes::{Observer, Outcome, Progress, Series, Summary, ValidationRow};
 
 const BAR: &str = r#"
     title = "bar"
@@ -29,20 +30,17 @@ fn refused<T>(result: Result<T, ReadingError>) -> (&'static str, String) {
     }
 }
 
-fn scene() -> (SceneDocument, Scene) {
-    let document = SceneDocument::parse(BAR, "bar.toml".as_ref()).unwrap();
-    let scene = document.scene().unwrap();
-    (document, scene)
+fn scene() -> PreparedScene {
+    PreparedScene::new(SceneDocument::parse(BAR, "bar.toml".as_ref()).unwrap()).unwrap()
 }
 
-fn run<'a>((document, scene): &'a (SceneDocument, Scene), validation: &[ValidationRow]) -> FinishedRun<'a> {
+fn run<'a>(prepared: &'a PreparedScene, validation: &[ValidationRow]) -> FinishedRun<'a> {
     let mut series = Series::new(vec!["time".to_owned(), "upper_x".to_owned()]);
     for (time, x) in [(0.0, 0.9), (1.0, 2.5), (2.0, 2.25)] {
         series.push(vec![time, x]);
     }
     FinishedRun {
-        document,
-        scene,
+        prepared,
         directory: PathBuf::new(),
         summary: Summary {
             outcome: Outcome::Finished,
@@ -55,6 +53,35 @@ fn run<'a>((document, scene): &'a (SceneDocument, Scene), validation: &[Validati
         },
         series,
     }
+}
+
+/// Stops a run after its first step.
+struct Impatient;
+
+impl Observer for Impatient {
+    fn after_step(&mut self, _: Progress) -> ControlFlow<()> {
+        ControlFlow::Break(())
+    }
+}
+
+#[test]
+fn a_run_is_finished_unless_it_was_stopped() {
+    let (root, scene) = (tempfile::tempdir().unwrap(), scene());
+    let run = |observer: &mut dyn Observer| FinishedRun::of(&scene, root.path().to_owned(), observer).unwrap();
+    assert!(run(&mut Impatient).is_none());
+    let finished = run(&mut ()).unwrap();
+    assert!(finished.summary.resumed_at.is_some());
+    assert_eq!(finished.series.column("time").unwrap().last(), Some(&2.0));
+}
+
+#[test]
+fn equal_scenes_have_equal_fingerprints() {
+    let mut document = scene().document;
+    document.put("grid.spacing", 0.5.into()).unwrap();
+    let changed = PreparedScene::new(document.clone()).unwrap().fingerprint;
+    assert!(changed.len() == 16 && changed != scene().fingerprint);
+    document.put("grid.spacing", 0.4.into()).unwrap();
+    assert_eq!(PreparedScene::new(document).unwrap().fingerprint, scene().fingerprint);
 }
 
 #[test]
@@ -108,6 +135,7 @@ fn what_is_missing_is_named_with_what_there_is() {
 fn half_a_reading_is_refused() {
     for (text, field) in [
         ("take = \"last\"", ""),
+        ("column = \"y\"\noffset = nan", ""),
         ("quantity = \"a\"\ncolumn = \"b\"", ""),
         ("quantity = \"a\"\ntake = \"last\"", "take"),
         ("column = \"a\"\ntake = \"difference\"", "against"),

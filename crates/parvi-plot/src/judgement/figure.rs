@@ -7,7 +7,7 @@ use crate::page::number;
 use crate::{GuideCurve, ReferenceLevel, exponent_text};
 
 /// The slopes asked for below the points, and the fitted power laws through them.
-pub fn guides(judgements: &[Judgement], judged: &[&MeasuredSeries]) -> Vec<GuideCurve> {
+pub(super) fn guides(judgements: &[Judgement], judged: &[&MeasuredSeries]) -> Vec<GuideCurve> {
     let mut guides = Vec::new();
     for judgement in judgements {
         match *judgement {
@@ -45,7 +45,7 @@ fn ends(judged: &[&MeasuredSeries], range: (Option<f64>, Option<f64>)) -> Option
 }
 
 /// The limits that values are held against, each once.
-pub fn levels(judgements: &[Judgement], judged: &[&MeasuredSeries]) -> Vec<ReferenceLevel> {
+pub(super) fn levels(judgements: &[Judgement], judged: &[&MeasuredSeries]) -> Vec<ReferenceLevel> {
     let mut values: Vec<f64> = Vec::new();
     for judgement in judgements {
         let Judgement::Bound {

@@ -6,13 +6,14 @@ mod figure;
 mod order;
 mod power_law;
 mod series;
+mod several;
 mod spread;
 mod verdict;
 
 pub use asked::Judgement;
-pub use figure::{guides, levels};
 pub use order::orders;
 pub use series::{MeasuredSeries, Point};
+pub use several::{Asked, without_run};
 pub use verdict::Verdict;
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! What a judgement says.
 
+use crate::page::Line;
+
 /// One line of the table of judgements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
@@ -11,6 +13,15 @@ pub struct Verdict {
     pub reached: String,
     /// Whether that is enough. Never where a run of the series ended before its time.
     pub pass: bool,
+}
+
+/// The names `of`, `asked` and `reached`, and whether it may `pass`.
+impl From<Verdict> for Line<'_> {
+    fn from(verdict: Verdict) -> Self {
+        let line = Self::default().with("of", verdict.of).with("asked", verdict.asked);
+        let line = line.with("reached", verdict.reached);
+        line.with("pass", if verdict.pass { "yes" } else { "**no**" })
+    }
 }
 
 impl Verdict {

@@ -109,6 +109,17 @@ pub fn telling_digits(values: &[f64]) -> usize {
     enough.unwrap_or(MOST_DIGITS)
 }
 
+/// A number beside a reference, with so many significant digits: four decimals where these are more and the reference is not 0.
+pub fn number_beside(value: f64, reference: Option<f64>, digits: usize) -> String {
+    let (told, compared) = (number_of(value, digits), format!("{value:.4}"));
+    let is_compared = reference.is_some_and(|reference| reference != 0.0) && (1e-3..1e3).contains(&value.abs());
+    if is_compared && compared.len() >= told.len() {
+        compared
+    } else {
+        told
+    }
+}
+
 /// The same as [`number`] with so many significant digits.
 pub fn number_of(value: f64, digits: usize) -> String {
     if !value.is_finite() {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::cell::{Cell, MISSING};
-use crate::results::{Row, Rows, Value};
+use crate::results::{Contest, Row, Rows, Value};
 
 /// What a line of a table is of.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +27,23 @@ impl<'a> Line<'a> {
             .fold(self, |line, (name, value)| line.with(name, value))
     }
 
+    /// The same with the numbers of a contest: `better`, `ties`, `worse`, and `neither`.
+    pub fn with_contest(self, contest: Contest) -> Self {
+        let Contest {
+            better,
+            ties,
+            worse,
+            neither,
+        } = contest;
+        let counts = [
+            ("better", better),
+            ("ties", ties),
+            ("worse", worse),
+            ("neither", neither),
+        ];
+        self.with_all(counts.map(|(name, count)| (name.to_owned(), count)))
+    }
+
     /// The same with statistics of other rows, behind a word.
     pub fn with_cells<const N: usize>(self, word: &str, rows: &Rows<'_>, statistics: [&str; N]) -> Self {
         self.with_all(statistics.map(|statistic| (format!("{word} {statistic}"), rows.cell(statistic))))
@@ -48,8 +65,29 @@ impl<'a> Line<'a> {
     }
 
     fn cell(&self, text: &str) -> String {
+        let (cell, [places, missing]) = self.with_places(text);
+        if places > 0 && missing == places {
+            return MISSING.to_owned();
+        }
+        cell.replace(&format!(" ({MISSING})"), "")
+    }
+
+    /// A text with statistics in braces.
+    pub(super) fn filled(&self, text: &str) -> String {
+        self.with_places(text).0
+    }
+
+    /// The first of some texts for whose places there is something, else the last.
+    pub(super) fn item(&self, texts: &[String]) -> String {
+        let is_whole = |text: &&String| self.with_places(text).1[1] == 0;
+        let text = texts.iter().find(is_whole).or(texts.last());
+        text.map(|text| self.filled(text)).unwrap_or_default()
+    }
+
+    /// The same with the number of its places, and of those for which there is nothing.
+    fn with_places(&self, text: &str) -> (String, [usize; 2]) {
         let mut parts = text.split('{');
-        let mut cell = parts.next().unwrap_or_default().to_owned();
+        let mut filled = parts.next().unwrap_or_default().to_owned();
         let (mut places, mut missing) = (0, 0);
         for part in parts {
             let (name, rest) = part.split_once('}').unwrap_or((part, ""));
@@ -57,13 +95,10 @@ impl<'a> Line<'a> {
             let value = own.map_or_else(|| self.rows.cell(name), |(_, value)| value.clone());
             places += 1;
             missing += usize::from(value == MISSING);
-            cell.push_str(&value);
-            cell.push_str(rest);
+            filled.push_str(&value);
+            filled.push_str(rest);
         }
-        if places > 0 && missing == places {
-            return MISSING.to_owned();
-        }
-        cell.replace(&format!(" ({MISSING})"), "")
+        (filled, [places, missing])
     }
 }
 
@@ -86,6 +121,18 @@ impl<'a> Rows<'a> {
     /// A line for each value that a column may hold, which names it, of the rows that hold it.
     pub fn lines<V: Into<Value>>(&self, column: &'static str, values: impl IntoIterator<Item = V>) -> Vec<Line<'a>> {
         Line::from(self.clone()).by(column, values)
+    }
+
+    /// A line for each combination that there is of what stands in some columns, which names it, in the order in which these come first.
+    pub fn lines_of<const N: usize>(&self, columns: [&'static str; N]) -> Vec<Line<'a>> {
+        let told = |line: Line<'a>, column: &'static str| {
+            let groups = line.rows.by(column).into_iter();
+            groups.map(move |(word, rows)| Line { rows, ..line.clone() }.with(column, word))
+        };
+        let first = vec![Line::from(self.clone())];
+        columns.into_iter().fold(first, |lines, column| {
+            lines.into_iter().flat_map(|line| told(line, column)).collect()
+        })
     }
 
     /// The same for each value of one column with each of another.

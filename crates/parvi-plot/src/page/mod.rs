@@ -10,7 +10,7 @@ use crate::PlotError;
 use prose::{Prose, filled};
 
 pub(crate) use cell::exponent;
-pub use cell::{Cell, MISSING, counted, escaped, number, number_of, percent, telling_digits};
+pub use cell::{Cell, MISSING, counted, escaped, number, number_beside, number_of, percent, telling_digits};
 pub use line::{Line, each};
 
 /// A page that grows by paragraphs, tables and figures.
@@ -22,7 +22,7 @@ pub struct Page {
     pub figures: Vec<(String, String)>,
     /// The most important of the page, by name; it is no part of the text.
     pub summary: Vec<(String, String)>,
-    /// What [`part`](Self::part) and [`drawing`](Self::drawing) choose from.
+    /// What [`part`](Self::part), [`part_of`](Self::part_of), [`list_of`](Self::list_of) and [`drawing`](Self::drawing) choose from.
     prose: Prose,
 }
 
@@ -36,7 +36,7 @@ impl Page {
     }
 
     /// A page whose prose is a Markdown text with `{name}` where values go. The title and what stands below it are written; of the rest a section is written when
-    /// [`part`](Self::part) asks for it, a line `![caption](name.svg)` is the caption of a figure, and a table is that of [`lines`](Self::lines).
+    /// [`part`](Self::part) or [`part_of`](Self::part_of) asks for it, a line `![caption](name.svg)` is the caption of a figure, and a table is that of [`lines`](Self::lines).
     pub fn of(prose: &str, values: &[(&str, &dyn Display)]) -> Self {
         let prose = Prose::new(prose, values);
         let mut page = Self {
@@ -44,27 +44,37 @@ impl Page {
             prose,
             ..Self::default()
         };
-        page.paragraphs("", &[]);
+        page.paragraphs("", str::to_owned);
         page
     }
 
     /// A section of the prose: `## name` with its heading, `### name` without.
     pub fn part(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
-        if self.prose.has_heading(name) {
-            self.heading(&filled(name, values));
-        }
-        self.paragraphs(name, values);
+        self.written(name, |text| filled(text, values));
     }
 
-    fn paragraphs(&mut self, name: &str, values: &[(&str, &dyn Display)]) {
+    /// The same with places that are filled as those of a table are: with what a line names, or a statistic of its rows.
+    pub fn part_of<'a>(&mut self, name: &str, line: impl Into<Line<'a>>) {
+        let line = line.into();
+        self.written(name, |text| line.filled(text));
+    }
+
+    fn written(&mut self, name: &str, fill: impl Fn(&str) -> String) {
+        if self.prose.has_heading(name) {
+            self.heading(&fill(name));
+        }
+        self.paragraphs(name, fill);
+    }
+
+    fn paragraphs(&mut self, name: &str, fill: impl Fn(&str) -> String) {
         match self.prose.paragraphs(name) {
-            Some(paragraphs) => paragraphs.iter().for_each(|text| self.paragraph(filled(text, values))),
+            Some(paragraphs) => paragraphs.iter().for_each(|text| self.paragraph(fill(text))),
             None => self.paragraph(absent(name)),
         }
     }
 
     /// The table of a section of the prose, whose one line says what stands in every line: text, and in braces what a [`Line`] names or a
-    /// statistic of its rows. Without lines it is a header. A cell of which no place has a value is [`MISSING`]; a place in brackets that has none
+    /// statistic of its rows; several lines are written for each. Without lines it is a header. A cell of which no place has a value is [`MISSING`]; a place in brackets that has none
     /// falls away with them.
     pub fn lines<'a>(&mut self, part: &str, lines: impl IntoIterator<Item = impl Into<Line<'a>>>) {
         self.lines_over(part, &[], lines);
@@ -77,10 +87,14 @@ impl Page {
         repeated: &[(&str, Vec<String>)],
         lines: impl IntoIterator<Item = impl Into<Line<'a>>>,
     ) {
-        let Some((header, cells)) = self.prose.table(part, repeated) else {
+        let Some((header, texts)) = self.prose.table(part, repeated) else {
             return self.paragraph(absent(part));
         };
-        let rows: Vec<Vec<String>> = lines.into_iter().map(|line| line.into().cells(&cells)).collect();
+        let mut rows = Vec::new();
+        for line in lines {
+            let line = line.into();
+            rows.extend(texts.iter().map(|cells| line.cells(cells)));
+        }
         self.table(&header, &rows);
     }
 
@@ -93,6 +107,25 @@ impl Page {
     ) {
         self.part(name, &[]);
         self.lines_over(name, repeated, lines);
+    }
+
+    /// A section of the prose that is a list: its items say what stands in every line, of several the first for whose places there is something, else the last.
+    /// What stands before the items is written above the lines, and what stands behind them in their place where there are none; without that not even the heading is.
+    pub fn list_of<'a>(&mut self, name: &str, lines: impl IntoIterator<Item = impl Into<Line<'a>>>) {
+        let Some(paragraphs) = self.prose.paragraphs(name) else {
+            return self.paragraph(absent(name));
+        };
+        let is_item = |text: &String| text.starts_with("- ");
+        let first = paragraphs.iter().position(is_item).unwrap_or(paragraphs.len());
+        let (above, below) = paragraphs.split_at(first);
+        let (items, otherwise): (Vec<String>, Vec<String>) = below.iter().cloned().partition(is_item);
+        let lines: Vec<String> = lines.into_iter().map(|line| line.into().item(&items)).collect();
+        let written = if lines.is_empty() { &otherwise[..] } else { above };
+        if self.prose.has_heading(name) && !(lines.is_empty() && otherwise.is_empty()) {
+            self.heading(name);
+        }
+        written.iter().for_each(|text| self.paragraph(text));
+        self.items(&lines);
     }
 
     /// A figure whose caption is in the prose.

@@ -57,25 +57,34 @@ impl Prose {
         self.0.lines().find_map(caption)
     }
 
-    /// Header and line of the table of a section, repeated columns once for each of their values.
-    pub fn table(&self, name: &str, repeated: &[(&str, Vec<String>)]) -> Option<(Vec<String>, Vec<String>)> {
-        let mut lines = self.section(name)?.filter(|line| is_table(line)).map(cells_of);
-        let (header, line) = (lines.next()?, lines.nth(1)?);
-        let mut columns: Vec<(String, String)> = header.into_iter().zip(line).collect();
+    /// Header and lines of the table of a section, repeated columns once for each of their values.
+    pub fn table(&self, name: &str, repeated: &[(&str, Vec<String>)]) -> Option<(Vec<String>, Vec<Vec<String>>)> {
+        let lines = self.section(name)?.filter(|line| is_table(line));
+        let mut lines: Vec<Vec<String>> = lines.map(cells_of).collect();
+        // Below the header is a rule.
+        (lines.len() > 2).then(|| lines.remove(1))?;
+        let cell = |line: &Vec<String>, column: usize| line.get(column).cloned().unwrap_or_default();
+        let column = |column: usize| lines.iter().map(|line| cell(line, column)).collect();
+        let mut columns: Vec<Vec<String>> = (0..lines[0].len()).map(column).collect();
         for (name, values) in repeated {
             let place = format!("{{{name}}}");
-            let is_of = |(head, cell): &(String, String)| head.contains(&place) || cell.contains(&place);
+            let is_of = |column: &Vec<String>| column.iter().any(|cell| cell.contains(&place));
             let first = columns.iter().position(is_of)?;
             let end = columns.iter().rposition(is_of)? + 1;
-            let group: Vec<(String, String)> = columns.drain(first..end).collect();
+            let group: Vec<Vec<String>> = columns.drain(first..end).collect();
             let of = |value: &String| {
                 let shown = escaped(value);
-                let of = |(head, cell): &(String, String)| (head.replace(&place, &shown), cell.replace(&place, value));
-                group.iter().map(of).collect::<Vec<_>>()
+                let filled = |column: &Vec<String>| {
+                    let values = std::iter::once(&shown).chain(std::iter::repeat(value));
+                    let cells = column.iter().zip(values);
+                    cells.map(|(cell, value)| cell.replace(&place, value)).collect()
+                };
+                group.iter().map(filled).collect::<Vec<_>>()
             };
             columns.splice(first..first, values.iter().flat_map(of));
         }
-        Some(columns.into_iter().unzip())
+        let mut lines = (0..lines.len()).map(|line| columns.iter().map(|column| column[line].clone()).collect());
+        Some((lines.next()?, lines.collect()))
     }
 }
 

@@ -37,6 +37,12 @@ impl Rows<'_> {
         LineSeries::through(label, self.places(x).into_iter().map(at))
     }
 
+    /// The same for each value that there is in a column, which is its label behind a word.
+    pub fn medians_by(&self, (word, column): (&str, &str), x: &str, y: &str) -> Vec<LineSeries> {
+        let line = |(value, here): (String, Self)| here.medians(format!("{word}{value}"), x, y);
+        self.by(column).into_iter().map(line).collect()
+    }
+
     /// A line through the medians of two columns, a point for each value of a third.
     pub fn path(&self, label: impl Into<String>, by: &str, x: &str, y: &str) -> LineSeries {
         let point = |(_, here): (String, Self)| Some((here.median(x)?, here.median(y).unwrap_or(f64::NAN)));

@@ -129,6 +129,11 @@ impl<'a> Rows<'a> {
         self.values(column).into_iter().reduce(f64::max)
     }
 
+    /// The largest distance of a column from zero.
+    pub fn farthest(&self, column: &str) -> Option<f64> {
+        self.values(column).into_iter().map(f64::abs).reduce(f64::max)
+    }
+
     /// Notes in a row the least value of a column, its median and the largest value.
     pub fn note_range(&self, column: &str, row: &mut Row, [least, median, largest]: [&'static str; 3]) {
         row.set(least, self.least(column));

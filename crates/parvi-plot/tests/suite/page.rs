@@ -1,6 +1,6 @@
 //! Pages from paragraphs and from a Markdown text.
 
-use parvi_plot::page::{Line, Page, counted, each, number_of, telling_digits};
+use parvi_plot::page::{Line, Page, counted, each, number_beside, number_of, telling_digits};
 use parvi_plot::results::{Row, Rows};
 
 #[test]
@@ -69,6 +69,71 @@ fn a_table_of_the_prose_says_what_stands_in_every_line() {
 }
 
 #[test]
+fn a_table_of_the_prose_may_have_several_lines() {
+    let prose =
+        "# A\n\n### b\n\n| quantity | {n} |\n| --- | --- |\n| error | {error where n = {n}} |\n| asked | < {n} |\n";
+    let rows = [1_usize, 2].map(|n| Row::default().with("n", n).with("error", 0.5 * n as f64));
+    let rows: Rows<'_> = rows.iter().collect();
+    let mut page = Page::of(prose, &[]);
+    page.lines_over("b", &[each("n", [1, 2])], [rows]);
+    let expected = "| quantity | 1 | 2 |\n| --- | ---: | ---: |\n| error | 0.500 | 1.00 |\n| asked | < 1 | < 2 |\n";
+    assert!(page.text.ends_with(expected), "{}", page.text);
+}
+
+#[test]
+fn prose_says_statistics_of_rows_as_tables_do() {
+    let prose = "# A\n\n## Errors\n\nAt most {farthest error} by {method}, of size {median size} ({bound} asked).\n";
+    let rows = [-2.0, 0.5].map(|error| Row::of("a").with("error", error));
+    let rows: Rows<'_> = rows.iter().collect();
+    let mut page = Page::of(prose, &[("bound", &3)]);
+    page.part_of("Errors", Line::from(rows).with("method", "b"));
+    page.part_of("Others", Line::default());
+    assert_eq!(
+        page.text,
+        "# A\n\n## Errors\n\nAt most 2.00 by b, of size – (3 asked).\n\nThe prose has no `Others`.\n"
+    );
+}
+
+#[test]
+fn a_line_for_each_combination_that_there_is() {
+    let row =
+        |method: &str, n: usize, error: f64| Row::default().with("method", method).with("n", n).with("error", error);
+    let rows = [row("b", 2, 1.0), row("c", 1, 3.0), row("b", 1, 2.0)];
+    let rows: Rows<'_> = rows.iter().collect();
+    let prose = "# A\n\n### b\n\n| of | other |\n| --- | --- |\n| {method}{n}: {error} | {better} to {worse} |\n";
+    let mut page = Page::of(prose, &[]);
+    let contest = |line: &Line<'_>| line.rows.against(&rows.with("n", 1_usize), ("error", &["method"]), 1.0);
+    let lines = rows.lines_of(["method", "n"]).into_iter();
+    page.lines("b", lines.map(|line| line.clone().with_contest(contest(&line))));
+    for line in [
+        "| b2: 1.00 | 1 to 0 |",
+        "| b1: 2.00 | 0 to 0 |",
+        "| c1: 3.00 | 0 to 0 |",
+    ] {
+        assert!(page.text.contains(line), "{line} is missing in {}", page.text);
+    }
+    assert!(!page.text.contains("c2"));
+}
+
+#[test]
+fn lists_of_the_prose_say_what_stands_in_every_line() {
+    let prose = "# A\n\n## Misses\n\nThese:\n\n- `{text case}`: {error}\n\n- `{text case}`: {text reason}\n\nNone.\n\n### bare\n\n- {case}\n";
+    let rows = [
+        Row::of("a[1]").with("error", 2.0),
+        Row::of("b").with("reason", "out"),
+        Row::of("c"),
+    ];
+    let mut page = Page::of(prose, &[]);
+    page.list_of("Misses", &rows);
+    page.list_of("Misses", Rows::default().iter());
+    page.list_of("bare", Rows::default().iter());
+    page.list_of("bare", &rows[1..2]);
+    let lines = "- `a[1]`: 2.00\n- `b`: out\n- `c`: –\n";
+    let expected = format!("# A\n\n## Misses\n\nThese:\n\n{lines}\n## Misses\n\nNone.\n\n- b\n");
+    assert_eq!(page.text, expected);
+}
+
+#[test]
 fn a_list_without_lines_says_so_or_nothing() {
     let mut page = Page::default();
     page.list("Misses", &[], None);
@@ -102,4 +167,14 @@ fn one_is_counted_as_one_and_digits_tell_values_apart() {
     let digits = telling_digits(&[12.5012, 12.5034, 12.5034]);
     assert_eq!((digits, number_of(12.5012, digits)), (5, "12.501".to_owned()));
     assert_eq!(telling_digits(&[1.0, 1.0 + 1e-12, 2.0]), 3);
+    let beside = |value: f64, reference: Option<f64>| number_beside(value, reference, 3);
+    assert_eq!(
+        [
+            beside(0.5, Some(1.0)),
+            beside(0.5, Some(0.0)),
+            beside(0.5, None),
+            beside(5e3, Some(1.0))
+        ],
+        ["0.5000", "0.500", "0.500", "5000"]
+    );
 }

@@ -21,15 +21,13 @@ pub fn plot(study: &Catalogue, asked: &[(String, Requirement)], rows: &Rows<'_>)
     };
     let bounds = asked.iter().map(|(target, asked)| (target.clone(), asked.bound));
     let plot = DotPlot::bounded("ED^{2} relative to independent draws", bounds, "requirement");
-    let mut plot = plot.with_crossed(study.starts.iter().map(series).collect());
-    plot.notes.push(format!(
-        "Method {}: medians over the seeds, a marker per start.",
-        study.judged()
-    ));
-    let missing = plot.missing();
-    if missing > 0 {
-        let note = format!("Pairs of target and start without a finished run, hence without a marker: {missing}.");
-        plot.notes.push(note);
+    let plot = plot.with_crossed(study.starts.iter().map(series).collect());
+    let note = format!("Method {}: medians over the seeds, a marker per start.", study.judged());
+    let plot = plot.with_note(note);
+    match plot.missing() {
+        0 => plot,
+        missing => plot.with_note(format!(
+            "Pairs of target and start without a finished run, hence without a marker: {missing}."
+        )),
     }
-    plot
 }

@@ -33,8 +33,8 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
         start_table(study, &targets, &start.runs(rows), &mut page);
     }
     claims::write(&judged, targets.iter().map(|(target, _)| target.as_str()), &mut page);
-    let misses: Vec<String> = judged.with("met", "no").iter().map(miss).collect();
-    page.list("Cases that miss their bound", &misses, Some("None."));
+    let misses = judged.with("met", "no");
+    page.list_of("Cases that miss their bound", misses.iter());
     let others = rows.having(|row| row.text("method") != study.judged()).failures();
     page.list("Runs of other methods that did not finish", &others, None);
 
@@ -55,15 +55,6 @@ fn told(study: &Catalogue, targets: &[(String, Requirement)], row: &Row) -> Row 
         .with("bound", asked.map(|asked| asked.bound))
         .with("met", if is_met { "yes" } else { "no" })
         .with("start", start.map(StartLaw::to_string))
-}
-
-/// What is missed, as an item of a list.
-fn miss(row: &Row) -> String {
-    let Some(ratio) = row.number("energy_ratio").map(number) else {
-        return row.failure();
-    };
-    let (case, bound) = (row.case(), row.value("bound"));
-    format!("- `{case}`: ED² {ratio} of independent draws, at most {bound}")
 }
 
 /// A line per target: both distances of every method, and the errors and costs of the judged one.

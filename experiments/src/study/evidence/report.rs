@@ -16,12 +16,7 @@ pub fn report(study: &Evidence, rows: &Rows<'_>, directory: &StudyDirectory) -> 
         page.lines("All targets", here.lines("method", methods()));
     }
     let far = rows.having(|row| row.number("evidence_ratio").is_some_and(|ratio| ratio > 3.0));
-    let stated = |row: &Row| {
-        let cells = row.cells("evidence_deviation | log_evidence_error");
-        format!("- `{}`: {}", row.case(), cells.join(" of "))
-    };
-    let far: Vec<String> = far.iter().map(stated).collect();
-    page.list("Errors beyond three standard errors", &far, Some("None."));
+    page.list_of("Errors beyond three standard errors", far.iter());
     Ok(rows.close(page).with("beyond_three_errors", far.len()))
 }
 

@@ -8,6 +8,11 @@ use super::variant::Variant;
 use crate::options::MaterialTable;
 use crate::study::prelude::*;
 
+/// The table of what every case has unless it says otherwise.
+pub const BASE: &str = "base";
+/// What stands beside it.
+pub const RIVALS: &str = "rivals";
+
 /// The paper's algorithms, a base and its changes.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -124,35 +129,31 @@ fn pairs<'a, T>(settings: &'a [Setting], values: &'a [T]) -> impl Iterator<Item 
 impl Paper {
     /// All cases, each once, target by target, so that a target's reference is made once.
     pub fn all_cases(&self) -> Result<Vec<Setting>, CommandError> {
-        self.check()?;
-        let mut cases = self.base_cases()?;
-        cases.extend(self.rival_cases()?);
-        for sweep in &self.sweeps {
-            cases.extend(self.cases_of(sweep)?);
-        }
-        let mut cases = each_once(cases);
+        let tables = self.tables()?.into_iter();
+        let mut cases = each_once(tables.flat_map(|(_, cases)| cases).collect());
         let targets: Vec<TargetSpecification> = cases.iter().map(|case| case.target.clone()).collect();
         cases.sort_by_key(|case| targets.iter().position(|target| *target == case.target));
         Ok(cases)
     }
 
-    /// The cases of the base alone.
-    pub fn base_cases(&self) -> Result<Vec<Setting>, CommandError> {
-        self.cases_of(&Settings::default())
-    }
-
-    /// The rivals on the targets of the base.
-    pub fn rival_cases(&self) -> Result<Vec<Setting>, CommandError> {
-        let mut cases: Vec<Setting> = Vec::new();
-        for case in self.base_cases()? {
-            let rivals = self.rivals.iter().cloned().map(Some);
-            cases.extend(rivals.map(|rival| Setting { rival, ..case.clone() }));
+    /// The cases by their tables: the base, the rivals on its targets, and every case of the configuration by its name.
+    pub fn tables(&self) -> Result<Vec<(&str, Vec<Setting>)>, CommandError> {
+        self.check()?;
+        let base = self.cases_of(&Settings::default())?;
+        let against = |(case, rival): (&Setting, &MethodSpecification)| Setting {
+            rival: Some(rival.clone()),
+            ..case.clone()
+        };
+        let rivals = each_once(pairs(&base, &self.rivals).map(against).collect());
+        let mut tables = vec![(BASE, base), (RIVALS, rivals)];
+        for sweep in &self.sweeps {
+            tables.push((sweep.name.as_deref().unwrap_or_default(), self.cases_of(sweep)?));
         }
-        Ok(each_once(cases))
+        Ok(tables)
     }
 
     /// The cases of one table.
-    pub fn cases_of(&self, sweep: &Settings) -> Result<Vec<Setting>, CommandError> {
+    fn cases_of(&self, sweep: &Settings) -> Result<Vec<Setting>, CommandError> {
         let name = |name: &String| format!("case.{name}");
         let table = sweep.name.as_ref().map_or("base".to_owned(), name);
         let settings = sweep.combinations(&self.base, &table)?;

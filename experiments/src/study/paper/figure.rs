@@ -14,13 +14,6 @@ fn median(rows: &Rows<'_>, column: &str) -> f64 {
     rows.median_of_all(column).unwrap_or(f64::NAN)
 }
 
-/// Lines of `y` over `x`, by what stands in a column.
-fn panel(title: String, rows: &Rows<'_>, by: (&str, &str), x: &str, y: &str) -> MultiplesPanel {
-    let (column, symbol) = by;
-    let line = |(name, here): (String, Rows<'_>)| here.medians(format!("{symbol}{name}"), x, y);
-    MultiplesPanel::new(title, rows.by(column).into_iter().map(line))
-}
-
 /// What says that a run is by one of the paper's algorithms, shorter.
 fn short(text: &str) -> String {
     text.replace("algorithm ", "Alg. ")
@@ -35,7 +28,7 @@ pub fn strength(alpha: &Rows<'_>, stiffness: &Rows<'_>) -> MultiplesPlot {
             format!("{name}: {method}, {}", row.text("variant"))
         };
         for (title, here) in rows.by_name(setting) {
-            let panel = panel(title, &here, ("target", ""), x, RATIO);
+            let panel = MultiplesPanel::new(title, here.medians_by(("", "target"), x, RATIO));
             panels.push(panel.with_level(1.0, "independent draws"));
         }
     }
@@ -46,55 +39,57 @@ pub fn strength(alpha: &Rows<'_>, stiffness: &Rows<'_>) -> MultiplesPlot {
 }
 
 /// Start, best on the way and end, target by target.
-pub fn transient(base: &Rows<'_>) -> DotPlot {
-    let mut named: Vec<(String, Rows<'_>)> = Vec::new();
-    for (setting, rows) in groups(base) {
-        let setting = short(&setting);
-        let by_target = rows.by("target").into_iter();
-        named.extend(by_target.map(|(target, rows)| (format!("{target}, {setting}"), rows)));
-    }
+pub fn transient<'a>(base: &Rows<'a>) -> DotPlot {
+    let by_target = |(setting, rows): (String, Rows<'a>)| {
+        let label = move |target: &str| format!("{target}, {}", short(&setting));
+        rows.by("target")
+            .into_iter()
+            .map(move |(target, rows)| (label(&target), rows))
+    };
+    let (labels, rows): (Vec<String>, Vec<Rows<'a>>) = groups(base).into_iter().flat_map(by_target).unzip();
     let quantities = [
         ("start", "start_ratio"),
         ("best on the way", "best_ratio"),
         ("end", RATIO),
     ];
     let series = quantities.map(|(name, column)| {
-        let values = named.iter().map(|(_, rows)| median(rows, column));
+        let values = rows.iter().map(|rows| median(rows, column));
         (name.to_owned(), values.collect())
     });
-    let labels = named.iter().map(|(label, _)| label.clone()).collect();
     let note = "Medians over the seeds; no mark for what more than half of the runs did not reach.";
-    ratios(labels, series.into(), note)
+    ratios(labels, series.into()).with_note(note)
 }
 
 /// The end of every material, by algorithm, variant and place of the force.
 pub fn materials(rows: &Rows<'_>) -> DotPlot {
-    let named = |row: &Row| {
-        let [method, variant, score] = ["method", "variant", "score"].map(|column| row.text(column));
-        format!("{method}, {variant}, force at {score}")
-    };
     let labels = rows.words("material");
     let values = |(name, here): (String, Rows<'_>)| {
         let value = |material: &String| median(&here.with("material", material.as_str()), RATIO);
         (name, labels.iter().map(value).collect())
     };
-    let mut series: Vec<(String, Vec<f64>)> = rows.by_name(named).into_iter().map(values).collect();
+    let named = rows.by_name(|row| {
+        let [method, variant, score] = ["method", "variant", "score"].map(|column| row.text(column));
+        format!("{method}, {variant}, force at {score}")
+    });
+    let mut series: Vec<(String, Vec<f64>)> = named.into_iter().map(values).collect();
     series.retain(|(_, values)| is_drawable(values));
-    ratios(labels, series, "Medians over targets and seeds.")
+    ratios(labels, series).with_note("Medians over targets and seeds.")
 }
 
 /// ED² over that of independent draws: a row per label, series by name.
-fn ratios(labels: Vec<String>, series: Vec<(String, Vec<f64>)>, note: &str) -> DotPlot {
+fn ratios(labels: Vec<String>, series: Vec<(String, Vec<f64>)>) -> DotPlot {
     let rows = labels.into_iter().map(|label| (label, 1.0));
-    let plot = DotPlot::bounded("ED^{2} relative to independent draws", rows, "independent draws");
-    let mut plot = plot.with_series(series);
-    plot.notes.push(note.to_owned());
-    plot
+    DotPlot::bounded("ED^{2} relative to independent draws", rows, "independent draws").with_series(series)
 }
 
 /// Time per step over M, a line per dimension, a panel per spacing.
 pub fn cost(rows: &Rows<'_>) -> MultiplesPlot {
     let spacing = |row: &Row| format!("h = {}", super::body::part(row, "spacing"));
-    let of = |(title, here): (String, Rows<'_>)| panel(title, &here, ("dim", "d = "), "particles", "step_microseconds");
-    MultiplesPlot::logarithmic("M", "time per step (µs)").with_panels(rows.by_name(spacing).into_iter().map(of))
+    let panel = |(title, here): (String, Rows<'_>)| {
+        MultiplesPanel::new(
+            title,
+            here.medians_by(("d = ", "dim"), "particles", "step_microseconds"),
+        )
+    };
+    MultiplesPlot::logarithmic("M", "time per step (µs)").with_panels(rows.by_name(spacing).into_iter().map(panel))
 }

@@ -55,12 +55,12 @@ impl Study for Paper {
         let mut seen = watch.seen;
         if let Some((step, message)) = seen.ended.take() {
             let failure = Failure::new(Status::Diverged, message);
-            fail(row, ("outside range", Some(step)), failure);
+            row.fail_in(("outside range", Some(step)), failure);
         } else {
             let error = result.as_ref().err().filter(|_| is_body);
             let why = error.map_or(("other", None), reason);
             match attempt(result)? {
-                Err(failure) => fail(row, why, failure),
+                Err(failure) => row.fail_in(why, failure),
                 Ok(outcome) => {
                     let steps = is_body.then_some(outcome.steps);
                     row.set("active_nodes", outcome.active_nodes.filter(|_| is_body));
@@ -87,17 +87,9 @@ impl Study for Paper {
 /// Why the sampler gave nothing, in a word or two, and in which step.
 type Reason = (&'static str, Option<usize>);
 
-/// Notes a run without particles.
-fn fail(row: &mut Row, (reason, step): Reason, failure: Failure) {
-    row.set("status", failure.status);
-    row.set("message", failure.reason);
-    row.set("reason", reason);
-    row.set("failed_step", step);
-}
-
 /// Notes the errors of the particles at the end, which is after so many steps of a body.
 fn end(row: &mut Row, errors: Attempt<Errors>, step: Option<usize>) -> Option<Errors> {
-    let failed = |failure: Failure| fail(row, ("outside range", step), failure);
+    let failed = |failure: Failure| row.fail_in(("outside range", step), failure);
     let errors = errors.map_err(failed).ok()?;
     row.set("final_energy", errors.energy_distance_squared);
     row.set("final_sliced", errors.sliced_wasserstein);
@@ -108,21 +100,19 @@ fn end(row: &mut Row, errors: Attempt<Errors>, step: Option<usize>) -> Option<Er
 }
 
 fn reason(error: &CommandError) -> Reason {
-    match error {
-        CommandError::NotFinite { .. } => ("not finite", None),
-        CommandError::Sample(SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. }) => {
-            ("not finite", Some(*step))
-        }
-        CommandError::Sample(SampleError::Mechanics { step, source }) => {
-            let text = format!("{source:?}");
-            let word = match () {
-                () if text.contains("NaN") || text.contains("inf") => "not finite",
-                () if text.starts_with("PositionOutOfRange") => "outside range",
-                () if text.starts_with("Deformation") => "turned inside out",
-                () => "other",
-            };
-            (word, Some(*step))
-        }
-        _ => ("other", None),
-    }
+    let CommandError::Sample(error) = error else {
+        let overflows = matches!(error, CommandError::NotFinite { .. });
+        return (if overflows { "not finite" } else { "other" }, None);
+    };
+    let word = match error {
+        SampleError::ScoreNotFinite { .. } | SampleError::Diverged { .. } => "not finite",
+        SampleError::Mechanics { source, .. } => match format!("{source:?}") {
+            text if text.contains("NaN") || text.contains("inf") => "not finite",
+            text if text.starts_with("PositionOutOfRange") => "outside range",
+            text if text.starts_with("Deformation") => "turned inside out",
+            _ => "other",
+        },
+        _ => "other",
+    };
+    (word, error.step())
 }

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::body::{PARTS, is_rival, part};
-use super::configuration::Settings;
 use super::{Paper, Setting};
 use crate::study::prelude::*;
 
@@ -20,66 +19,46 @@ pub fn is_good(row: &Row) -> bool {
 
 /// The rows by what they are of.
 pub struct Findings<'a> {
-    /// The bodies of all cases.
+    /// All bodies.
     pub bodies: Rows<'a>,
-    /// The base.
-    pub base: Rows<'a>,
-    /// The rivals.
-    pub rivals: Rows<'a>,
-    /// The cases of the configuration by their names.
-    pub sweeps: Vec<(&'a str, Rows<'a>)>,
+    /// The rows of each table of the configuration; some may be missing.
+    pub tables: Vec<(&'a str, Rows<'a>)>,
 }
 
 impl<'a> Findings<'a> {
-    /// Looks for the rows of all cases; some may be missing.
+    /// Looks for the rows of all tables.
     pub fn new(study: &'a Paper, rows: &Rows<'a>) -> Result<Self, CommandError> {
         let known: HashMap<&str, &Row> = rows.iter().map(|row| (row.case(), row)).collect();
-        let of = |cases: Vec<Setting>| -> Rows<'a> {
-            let found = |case: &Setting| known.get(case.id().as_str()).copied();
-            cases.iter().filter_map(found).collect()
-        };
-        let name = |sweep: &'a Settings| sweep.name.as_deref().unwrap_or_default();
-        let sweep = |sweep: &'a Settings| Ok((name(sweep), of(study.cases_of(sweep)?)));
+        let found = |case: &Setting| known.get(case.id().as_str()).copied();
+        let of = |(name, cases): (&'a str, Vec<Setting>)| (name, cases.iter().filter_map(found).collect());
         Ok(Self {
-            bodies: of(study.all_cases()?).having(|row| !is_rival(row)),
-            base: of(study.base_cases()?),
-            rivals: of(study.rival_cases()?),
-            sweeps: study.sweeps.iter().map(sweep).collect::<Result<_, CommandError>>()?,
+            bodies: rows.having(|row| !is_rival(row)),
+            tables: study.tables()?.into_iter().map(of).collect(),
         })
     }
 
-    /// The rows of a case of the configuration; none if it has no such case.
-    pub fn sweep(&self, name: &str) -> Rows<'a> {
-        let found = self.sweeps.iter().find(|(known, _)| *known == name);
+    /// The rows of a table; none if there is no such one.
+    pub fn of(&self, table: &str) -> Rows<'a> {
+        let found = self.tables.iter().find(|(known, _)| *known == table);
         found.map(|(_, rows)| rows.clone()).unwrap_or_default()
     }
 }
 
 /// The rows by what differs among their settings, target and seed apart, in the order of the cases.
 pub fn groups<'a>(rows: &Rows<'a>) -> Vec<(String, Rows<'a>)> {
-    let of_rivals = rows.first().is_some_and(is_rival);
     // The methods are named even where there is only one.
     let is_told = |(column, _): &(&str, &str)| match *column {
         "method" => true,
-        "variant" => !of_rivals,
-        "particles" => rows.words("particles").len() > 1,
-        column => !of_rivals && rows.words(column).len() > 1,
+        "variant" => !rows.iter().all(is_rival),
+        column => rows.words(column).len() > 1,
     };
     let told: Vec<(&str, &str)> = PARTS.into_iter().filter(is_told).collect();
-    let label = |row: &Row| {
-        let named = |(column, symbol): &(&str, &str)| format!("{symbol}{}", part(row, column));
-        told.iter().map(named).collect::<Vec<_>>().join(", ")
-    };
-    rows.by_name(label)
+    let named = |row: &Row, (column, symbol): &(&str, &str)| format!("{symbol}{}", part(row, column));
+    rows.by_name(|row| told.iter().map(|told| named(row, told)).collect::<Vec<_>>().join(", "))
 }
 
 /// A line per setting, over targets and seeds.
-pub fn settings(rows: &Rows<'_>, page: &mut Page) {
-    let lines = groups(rows).into_iter().map(|(label, here)| {
-        // Rivals are not looked at on their way.
-        let is_body = !here.iter().all(is_rival);
-        let best = is_body.then(|| here.cell("median of all best_ratio"));
-        Line::from(here).with("setting", label).with("best", best)
-    });
-    page.lines("settings", lines);
+pub fn settings<'a>(rows: &Rows<'a>) -> Vec<Line<'a>> {
+    let line = |(label, here)| Line::from(here).with("setting", label);
+    groups(rows).into_iter().map(line).collect()
 }

@@ -2,8 +2,6 @@
 
 mod report;
 
-use std::path::PathBuf;
-
 use super::prelude::*;
 use super::reference::{MOMENTS, Reference};
 use crate::output::{ParticleFile, table_file};
@@ -48,15 +46,10 @@ struct Bounds {
     standard_deviation: f64,
 }
 
-/// The pieces of work, by their names in results.csv and in the names of raw files: the posterior's reference moments, its particles, and those for the eye.
+/// The pieces of work, by their names in results.csv: the posterior's reference, whose raw files are `moments` and `particles`; its particles, and those for the eye, with their `trace`.
 const REFERENCE: &str = "reference";
 const POSTERIOR: &str = "posterior";
 const PICTURE: &str = "picture";
-
-/// A file of a piece: `particles`, `trace` or `moments`.
-fn file(directory: &StudyDirectory, piece: &str, what: &str) -> PathBuf {
-    directory.raw(&format!("{piece}-{what}.csv"))
-}
 
 impl Study for Quickstart {
     type Work = Sampled;
@@ -86,18 +79,20 @@ impl Study for Quickstart {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let file = |what: &str| file(tools.directory, case.id(), what);
-        if case.id() == REFERENCE {
+        let file = |what: &str| tools.directory.raw_of(case.id(), what);
+        let particles = if case.id() == REFERENCE {
             let (seconds, known) = timed(|| self.reference.of(&self.posterior.target));
             let (moments, draws, size) = known?;
             row_file::write(&file("moments"), MOMENTS, &moments)?;
-            ParticleFile::create(file("particles"))?.write(&draws, &[])?;
             row.set("effective_sample_size", size);
             row.set(SECONDS, seconds);
+            draws
         } else if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
-            ParticleFile::create(file("particles"))?.write(&outcome.particles, &[])?;
             table_file::write(outcome.trace.iter(), &file("trace"))?;
-        }
-        Ok(())
+            outcome.particles
+        } else {
+            return Ok(());
+        };
+        ParticleFile::create(file("particles"))?.write(&particles, &[])
     }
 }

@@ -1,6 +1,6 @@
 //! The report of the study `quickstart`, whose figures are drawn from its raw files.
 
-use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE, file};
+use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE};
 use crate::dispatch::on_target;
 use crate::output::{particles_csv, table_file};
 use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL, panels};
@@ -14,10 +14,10 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
     let [target, shown] = [&study.posterior, &study.picture].map(|part| part.target.label());
     let mut page = directory.page(include_str!("report.md"), &[("target", &target), ("shown", &shown)]);
     let finished = |piece: &str| rows.with("case", piece).count(Row::finished) > 0;
-    let particles = |piece: &str| particles_csv::read(&file(directory, piece, "particles"));
+    let particles = |piece: &str| particles_csv::read(&directory.raw_of(piece, "particles"));
     if finished(REFERENCE) && finished(POSTERIOR) {
         let own = particles(POSTERIOR)?;
-        let moments = row_file::read(&file(directory, REFERENCE, "moments"), MOMENTS)?;
+        let moments = row_file::read(&directory.raw_of(REFERENCE, "moments"), MOMENTS)?;
         let axes = compared(&own, moments)?;
         page = verdict(study, &axes.iter().collect(), rows, page);
         page.section("Posterior moments", &[], &axes);
@@ -39,12 +39,10 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
     page.heading("The way there");
     let mut runs = Vec::new();
     for (piece, part) in [(POSTERIOR, &study.posterior), (PICTURE, &study.picture)] {
-        let path = file(directory, piece, "trace");
-        if path.exists() {
-            runs.push((part.target.label(), table_file::read(&path)?));
-        }
+        let steps = finished(piece).then(|| table_file::read(&directory.raw_of(piece, "trace")));
+        let steps = steps.transpose()?.filter(|steps| !steps.is_empty());
+        runs.extend(steps.map(|steps| (part.target.label(), steps)));
     }
-    runs.retain(|(_, steps)| !steps.is_empty());
     if !runs.is_empty() {
         let panels = panels([RESIDUAL, KINETIC_ENERGY, POTENTIAL_ENERGY], &runs);
         page.drawing("traces.svg", multiples(&MultiplesPlot::traces("", "step", panels)));
@@ -59,13 +57,10 @@ const UNDECIDED: &str = ", since standard errors of the reference are above half
 /// Whether the particles' moments keep their bounds, axis by axis.
 fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page) -> Page {
     let bounds = &study.bounds;
-    let largest = |column| axes.values(column).into_iter().map(f64::abs).fold(0.0, f64::max);
-    let mean = largest("mean_error");
-    let deviation = largest("deviation_error");
-    let reference = largest("reference_error");
-    let of_deviation = largest("reference_deviation_error");
+    let farthest = |column| axes.farthest(column).unwrap_or(f64::NAN);
+    let [mean, deviation] = ["mean_error", "deviation_error"].map(farthest);
+    let [reference, of_deviation] = ["reference_error", "reference_deviation_error"].map(farthest);
     let kept = [mean <= bounds.mean, deviation <= bounds.standard_deviation];
-    let kept = kept.map(|kept| kept && !axes.is_empty());
     let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
     // What is judged by has to be known twice as well.
     let decides = reference <= 0.5 * bounds.mean && of_deviation <= 0.5 * bounds.standard_deviation;
@@ -75,18 +70,13 @@ fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page)
         (_, false) => "undecided",
     };
     let why = if verdict == "undecided" { UNDECIDED } else { "" };
-    let runs = rows.with("case", REFERENCE);
-    let values: [(&str, &dyn Display); 8] = [
-        ("verdict", &format!("{verdict}{why}")),
-        ("mean error", &number(mean)),
-        ("means", &means),
-        ("deviation error", &number(100.0 * deviation)),
-        ("deviations", &deviations),
-        ("deviation bound", &(100.0 * bounds.standard_deviation)),
-        ("size", &runs.cell("fixed 0 effective_sample_size")),
-        ("reference error", &number(reference)),
-    ];
-    page.part("verdict", &values);
+    let line = Line::from(axes.clone())
+        .with("verdict", format!("{verdict}{why}"))
+        .with("means", means)
+        .with("deviations", deviations)
+        .with("deviation bound", (100.0 * bounds.standard_deviation).to_string());
+    let size = rows.cell("fixed 0 effective_sample_size where case = reference");
+    page.part_of("verdict", line.with("size", size));
     page.with("largest_mean_error", format!("{mean:.6}"))
         .with("largest_sd_error", format!("{deviation:.6}"))
         .with("verdict", verdict)

@@ -16,11 +16,9 @@ pub fn report(study: &RandomTargets, rows: &Rows<'_>, directory: &StudyDirectory
         page.heading(&format!("d = {dim}"));
         table(study, &rows.with("dim", dim), &mut page);
     }
-    let false_claim = |row: &Row| format!("- `{}`: ED² {}", row.case(), row.value("energy_ratio").cell());
     // No better than independent draws.
     let false_claims = rows.false_claims("energy_ratio", 1.0);
-    let false_claims: Vec<String> = false_claims.iter().map(false_claim).collect();
-    page.list("Claims that are false", &false_claims, None);
+    page.list_of("Claims that are false", false_claims.iter());
     let page = rows.close(page).with("claimed", rows.count(Row::claims));
     Ok(page.with("false_claims", false_claims.len()))
 }

@@ -5,7 +5,7 @@ use mpm_scenes::variation::Axis;
 use serde::Deserializer;
 use toml::Table;
 
-use crate::plots::judgement::{Judgement, MeasuredSeries};
+use crate::plots::judgement::{Asked, Judgement, without_run};
 use crate::study::prelude::*;
 
 /// Runs of one scene with changes, of each of which one number is read.
@@ -108,21 +108,18 @@ impl Family {
         ] {
             is_fit.then_some(()).ok_or_else(|| self.refuse(field, otherwise))?;
         }
-        let given = self
-            .read
-            .offsets
-            .values()
-            .chain(&self.read.factor)
-            .chain(&self.read.offset);
-        if given.into_iter().any(|number| number.is_nan()) {
-            return Err(self.refuse("read", "NaN: `factor`, `offset` and `offsets` must be numbers"));
-        }
-        for (place, judgement) in self.judgements.iter().enumerate() {
-            if let Some((key, message)) = judgement.fault(self.read.quantity.is_some()) {
-                return Err(self.refuse(&format!("judgements.{place}.{key}"), message));
-            }
+        if let Some((field, message)) = self.asked().fault(self.read.quantity.is_some()) {
+            return Err(self.refuse(&field, message));
         }
         self.read.check().map_err(|error| self.misread(error))
+    }
+
+    /// What is asked of its series.
+    pub fn asked(&self) -> Asked<'_> {
+        Asked {
+            judgements: &self.judgements,
+            judged: &self.judged,
+        }
     }
 
     /// Refuses choices among its runs, of which there are label and x, that none of them meets.
@@ -130,29 +127,10 @@ impl Family {
     /// # Errors
     /// `judged`, the `at` of a judgement, or `drawn`.
     pub fn check_choices(&self, runs: &[(&str, f64)]) -> Result<(), CommandError> {
-        let is_of = |label: &str, names: &[String]| MeasuredSeries::named(label).is_among(names);
-        for name in &self.judged {
-            if !runs.iter().any(|(label, _)| is_of(label, std::slice::from_ref(name))) {
-                return Err(self.refuse("judged", format!("`{name}` is no part of the label of a series")));
-            }
-        }
-        let judged: Vec<f64> = runs
-            .iter()
-            .filter(|(label, _)| is_of(label, &self.judged))
-            .map(|(_, x)| *x)
-            .collect();
-        for (place, judgement) in self.judgements.iter().enumerate() {
-            let at = format!("judgements.{place}.at");
-            self.check_places(&at, judgement.at(), &judged)?;
-        }
-        let all: Vec<f64> = runs.iter().map(|(_, x)| *x).collect();
-        self.check_places("drawn", &self.drawn, &all)
-    }
-
-    fn check_places(&self, field: &str, chosen: &[f64], known: &[f64]) -> Result<(), CommandError> {
-        let missed = chosen.iter().find(|x| !known.contains(x));
-        let message = |x: &f64| format!("no run has {x} as its x; there are {known:?}");
-        missed.map_or(Ok(()), |x| Err(self.refuse(field, message(x))))
+        let known: Vec<f64> = runs.iter().map(|(_, x)| *x).collect();
+        let drawn = || Some(("drawn".to_owned(), without_run(&self.drawn, &known)?));
+        let unmet = self.asked().unmet(runs).or_else(drawn);
+        unmet.map_or(Ok(()), |(field, message)| Err(self.refuse(&field, message)))
     }
 
     /// What a reading refuses, of the family.

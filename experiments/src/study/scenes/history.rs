@@ -3,6 +3,7 @@
 use mpm_scenes::Series;
 use mpm_scenes::output::read_series;
 use mpm_scenes::reading::curve;
+use mpm_scenes::reference::curve::Curve;
 
 use super::family::{Family, HistoryPanel};
 use crate::plots::AxisKind;
@@ -18,12 +19,8 @@ pub fn check(family: &Family, series: &Series) -> Result<(), CommandError> {
 }
 
 /// What a panel shows of a series.
-fn found(family: &Family, series: &Series, panel: &HistoryPanel) -> Result<Vec<(f64, f64)>, CommandError> {
-    let known = || series.columns().join("`, `");
-    let message = |name: String| format!("the series has no `{name}`, but `{}`", known());
-    let curve = curve(series, &panel.column);
-    let curve = curve.map_err(|name| family.refuse("history.column", message(name)))?;
-    Ok(curve.points().collect())
+fn found(family: &Family, series: &Series, panel: &HistoryPanel) -> Result<Curve, CommandError> {
+    curve(series, &panel.column).map_err(|message| family.refuse("history.column", message))
 }
 
 /// The figure of the runs whose x is among the family's `drawn`, and of the runs that they are compared with; none where nothing is to be drawn.
@@ -35,20 +32,20 @@ pub fn plot(
     rows: &Rows<'_>,
     directory: &StudyDirectory,
 ) -> Result<Option<MultiplesPlot>, CommandError> {
-    let x = |row: &Row| row.number("x").unwrap_or(f64::NAN);
-    let is_drawn = |row: &Row| family.drawn.is_empty() || family.drawn.contains(&x(row));
-    let finished = rows.having(|row| row.number("value").is_some());
-    let drawn = finished.with("family", family.name.as_str()).having(is_drawn);
+    let is_drawn = |x: f64| family.drawn.is_empty() || family.drawn.contains(&x);
+    let finished = rows.having(|row| row.number("value").is_some() && row.number("x").is_some_and(is_drawn));
+    let drawn = finished.with("family", family.name.as_str());
     if family.history.is_empty() || drawn.is_empty() {
         return Ok(None);
     }
     let several = drawn.places("x").len() > 1;
     let mut runs: Vec<(String, &str)> = Vec::new();
     for row in drawn.iter() {
-        let label = match (row.text("label"), several) {
-            (label, false) if !label.is_empty() => label.to_owned(),
-            ("", _) => format!("{}", x(row)),
-            (label, _) => format!("{label}, {}", x(row)),
+        let x = row.value("x").to_string();
+        let label = match row.text("label") {
+            "" => x,
+            label if several => format!("{label}, {x}"),
+            label => label.to_owned(),
         };
         runs.push((label, row.text("scene")));
         let against = row.text("against");
@@ -63,10 +60,9 @@ pub fn plot(
     for (label, scene) in runs {
         let series = read_series(&directory.raw(scene))?;
         for (panel, history) in panels.iter_mut().zip(&family.history) {
-            let points = found(family, &series, history)?;
-            let every = points.len().div_ceil(MOST_POINTS).max(1);
-            let points = points.into_iter().step_by(every);
-            panel.series.push(LineSeries::through(label.as_str(), points));
+            let curve = found(family, &series, history)?;
+            let line = LineSeries::through(label.as_str(), curve.thinned(MOST_POINTS));
+            panel.series.push(line);
         }
     }
     Ok(Some(MultiplesPlot::traces("", "time (s)", panels)))

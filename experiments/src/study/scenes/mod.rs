@@ -5,21 +5,19 @@
 
 mod configuration;
 mod family;
-mod figure;
 mod history;
 mod report;
 mod scene_files;
 
 use std::path::Path;
 
-use mpm_scenes::output::read_series;
+use mpm_scenes::SimulationError;
 use mpm_scenes::reading::FinishedRun;
-use mpm_scenes::variation::{Combination, combinations};
-use mpm_scenes::{Outcome, SimulationError};
+use mpm_scenes::variation::{Combination, PreparedScene, combinations};
 
 pub use configuration::Scenes;
 use family::Family;
-use scene_files::{PreparedScene, SceneFiles};
+use scene_files::SceneFiles;
 
 use super::prelude::*;
 
@@ -101,66 +99,41 @@ impl Study for Scenes {
         row.set("x", prepared.x);
         row.set("scene", prepared.own.fingerprint.as_str());
         row.set("against", prepared.against());
-        let (seconds, run) = timed(|| finished(variant, &prepared.own, tools.directory, tools.observer));
-        let run = match run? {
-            Ok(run) => run,
-            Err(reason) => return diverged(row, reason),
-        };
+        let (directory, observer) = (tools.directory, tools.observer);
+        let (seconds, run) = timed(|| finished(variant, (&prepared.own, ""), directory, observer));
+        let run = run?;
         let summary = &run.summary;
         row.set("wall_seconds", (summary.steps_here == summary.steps).then_some(seconds));
         row.set("steps", summary.steps);
         row.set("particles", summary.particles);
         let other = prepared.against.as_ref();
-        let other = other.map(|other| finished(variant, other, tools.directory, tools.observer));
-        let other = match other.transpose()?.transpose() {
-            Ok(other) => other,
-            Err(reason) => return diverged(row, format!("what it is compared with: {reason}")),
-        };
+        let other = other.map(|other| finished(variant, (other, "what it is compared with: "), directory, observer));
+        let other = other.transpose()?;
         history::check(&variant.family, &run.series)?;
         let measured = variant.family.read.read(&run, other.as_ref());
         let measured = measured.map_err(|error| variant.family.misread(error))?;
         row.set("reference", measured.reference);
         row.set("tolerance", measured.tolerance);
         if !measured.value.is_finite() {
-            return diverged(row, format!("the value is {}", measured.value));
+            let reason = format!("the value is {}", measured.value);
+            return Err(Failure::new(Status::Diverged, reason).into());
         }
         row.set("value", measured.value);
         Ok(())
     }
 }
 
-/// Notes why there is no value.
-fn diverged(row: &mut Row, reason: String) -> Result<(), CommandError> {
-    row.set("status", Status::Diverged);
-    row.set("reason", reason);
-    Ok(())
-}
-
-/// Runs a scene, or what is left of its run; why it ended before its time, if it did.
+/// Runs a scene, or what is left of its run. One that ends before its time is a failure, which begins with what the scene is.
 fn finished<'a>(
     variant: &Variant,
-    prepared: &'a PreparedScene,
+    (scene, what): (&'a PreparedScene, &str),
     directory: &StudyDirectory,
     observer: &mut Bar,
-) -> Result<Result<FinishedRun<'a>, String>, CommandError> {
-    let path = directory.raw(&prepared.fingerprint);
-    let summary = match mpm_scenes::simulate(&prepared.scene, &path, observer) {
-        Ok(summary) => summary,
-        Err(SimulationError::Scene(error)) => return Err(variant.refuse(error.without_line())),
-        Err(
-            error
-            @ (SimulationError::File { .. } | SimulationError::Checkpoint { .. } | SimulationError::Series { .. }),
-        ) => return Err(error.into()),
-        Err(error) => return Ok(Err(Failure::new(Status::Diverged, error).reason)),
-    };
-    if summary.outcome == Outcome::Interrupted {
-        return Err(CommandError::Interrupted { hint: String::new() });
+) -> Result<FinishedRun<'a>, CommandError> {
+    match FinishedRun::of(scene, directory.raw(&scene.fingerprint), observer) {
+        Ok(run) => run.ok_or(CommandError::Interrupted { hint: String::new() }),
+        Err(SimulationError::Scene(error)) => Err(variant.refuse(error.without_line())),
+        Err(error) if error.is_of_run() => Err(Failure::new(Status::Diverged, format!("{what}{error}")).into()),
+        Err(error) => Err(error.into()),
     }
-    Ok(Ok(FinishedRun {
-        series: read_series(&path)?,
-        directory: path,
-        document: &prepared.document,
-        scene: &prepared.scene,
-        summary,
-    }))
 }

@@ -2,10 +2,9 @@
 
 use super::configuration::Scenes;
 use super::family::Family;
-use super::figure;
 use super::history;
-use crate::plots::judgement::{Judgement, MeasuredSeries, Verdict, orders};
-use crate::plots::page::{escaped, number_of, telling_digits};
+use crate::plots::judgement::{Judgement, MeasuredSeries, orders};
+use crate::plots::page::{escaped, number_beside, telling_digits};
 use crate::study::prelude::*;
 
 /// Judgements, then each family with its figure and its numbers.
@@ -14,22 +13,21 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     let of = |family: &Family| MeasuredSeries::of(&rows.with("family", family.name.as_str()));
     let all: Vec<Vec<MeasuredSeries>> = families.iter().map(of).collect();
     let mut page = directory.page(include_str!("report.md"), &[("title", &study.title)]);
-    let mut lines = Vec::new();
-    let (mut judged, mut passed) = (0, 0);
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    let mut passed = 0;
     for (family, series) in families.iter().zip(&all) {
-        for verdict in verdicts(family, series) {
-            judged += 1;
-            passed += usize::from(verdict.pass);
-            let line = Line::default().with("family", family.title.as_str());
-            let line = line.with("of", verdict.of).with("asked", verdict.asked);
-            let line = line.with("reached", verdict.reached);
-            lines.push(line.with("pass", if verdict.pass { "yes" } else { "**no**" }));
-        }
+        let verdicts = family.asked().verdicts(series);
+        passed += verdicts.iter().filter(|verdict| verdict.pass).count();
+        let line = |verdict| Line::from(verdict).with("family", family.title.as_str());
+        lines.extend(verdicts.into_iter().map(line));
     }
+    let judged = lines.len();
     page.section("Judgements", &[], lines);
     let seconds = format!("{:.0}", rows.values(SECONDS).iter().sum::<f64>());
-    let values: [(&str, &dyn Display); 3] = [("passed", &passed), ("judged", &judged), ("seconds", &seconds)];
-    page.part("kept", &values);
+    page.part(
+        "kept",
+        &[("passed", &passed), ("judged", &judged), ("seconds", &seconds)],
+    );
     for (family, series) in families.iter().zip(&all) {
         section(&mut page, family, series, rows, directory)?;
     }
@@ -42,19 +40,6 @@ pub fn report(study: &Scenes, rows: &Rows<'_>, directory: &StudyDirectory) -> Re
     let page = page.with("cases", rows.len()).with("failed", failed);
     let page = page.with("judged", judged).with("passed", passed);
     Ok(page.with("verdict", verdict))
-}
-
-/// What the family's judgements say; one that finds nothing to judge is not kept.
-fn verdicts(family: &Family, series: &[MeasuredSeries]) -> Vec<Verdict> {
-    let judged = || series.iter().filter(|series| series.is_among(&family.judged));
-    let of = |judgement: &Judgement| {
-        let mut verdicts: Vec<Verdict> = judged().flat_map(|series| judgement.judge(series)).collect();
-        if verdicts.is_empty() {
-            verdicts.push(Verdict::of_nothing(family.judged.join(" or ")));
-        }
-        verdicts
-    };
-    family.judgements.iter().flat_map(of).collect()
 }
 
 /// Figure and tables of one family.
@@ -71,7 +56,9 @@ fn section(
     }
     let name = format!("{}.svg", family.name);
     let caption = format!("{}: {}.", family.title, family.y_label);
-    page.figure(&name, &caption, multiples(&figure::plot(family, series)));
+    let labels = [family.x_label.as_deref().unwrap_or_default(), &family.y_label];
+    let plot = family.asked().plot(series, &family.title, labels);
+    page.figure(&name, &caption, multiples(&plot));
     if let Some(plot) = history::plot(family, rows, directory)? {
         let name = format!("{}_history.svg", family.name);
         let caption = format!("{}: over time.", family.title);
@@ -98,59 +85,8 @@ fn order_line(series: &MeasuredSeries) -> Line<'static> {
 /// A run, its value with as many digits as it takes to tell it from others.
 fn line(row: &Row, significant: usize) -> Line<'_> {
     let value = row.number("value");
-    let value = value.map(|value| digits(value, row.number("reference"), significant));
+    let value = value.map(|value| number_beside(value, row.number("reference"), significant));
     let ended = value.as_ref().map_or(row.text("reason"), |_| "at the end");
     let x = row.number("x").unwrap_or(f64::NAN).to_string();
     Line::from(row).with("x", x).with("digits", value).with("ended", ended)
-}
-
-/// As many digits as it takes to compare with a reference: one more than usual where there is one that is not 0.
-fn digits(value: f64, reference: Option<f64>, significant: usize) -> String {
-    let told = number_of(value, significant);
-    match reference {
-        Some(reference) if reference != 0.0 && (1e-3..1e3).contains(&value.abs()) => {
-            let compared = format!("{value:.4}");
-            if compared.len() < told.len() { told } else { compared }
-        }
-        _ => told,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plots::judgement::Point;
-
-    #[test]
-    fn a_judgement_that_finds_nothing_to_judge_is_not_kept() {
-        let family: Family = toml::from_str(
-            "name = \"a\"\ntitle = \"A\"\ny-label = \"y\"\nread = { quantity = \"q\" }\n\
-             judgements = [{ kind = \"bound\", reference = 0.0, tolerance = 2.0, at = [1.0] }]\njudged = [\"graded, local\"]",
-        )
-        .unwrap();
-        let point = Point {
-            x: 1.0,
-            value: 0.5,
-            reference: None,
-            tolerance: None,
-        };
-        let series = MeasuredSeries {
-            label: "graded, local".to_owned(),
-            points: vec![point],
-            failed: Vec::new(),
-        };
-        let judged = |names: &[&str]| {
-            let judged = names.iter().map(|name| (*name).to_owned()).collect();
-            verdicts(
-                &Family {
-                    judged,
-                    ..family.clone()
-                },
-                std::slice::from_ref(&series),
-            )
-        };
-        let unknown = judged(&["graded, global"]);
-        assert!(unknown.len() == 1 && !unknown[0].pass && unknown[0].reached == "none");
-        assert!(judged(&["graded"])[0].pass && judged(&["graded, local"])[0].pass);
-    }
 }

@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use mpm_scenes::variation::SceneDocument;
-use mpm_scenes::{Scene, SceneError};
+use mpm_scenes::variation::{PreparedScene, SceneDocument};
 
 use super::Variant;
 use super::family::Family;
 use crate::CommandError;
-use crate::study::configuration::fingerprint;
 
 /// Scenes by the names that the configuration has for them.
 #[derive(Clone, Debug, Default)]
@@ -33,17 +31,6 @@ impl CaseScene {
     pub fn against(&self) -> &str {
         self.against.as_ref().map_or("", |other| &other.fingerprint)
     }
-}
-
-/// A scene with changes.
-#[derive(Clone, Debug)]
-pub struct PreparedScene {
-    /// All its keys.
-    pub document: SceneDocument,
-    /// The scene.
-    pub scene: Scene,
-    /// A fingerprint of all its keys and values.
-    pub fingerprint: String,
 }
 
 impl SceneFiles {
@@ -102,10 +89,5 @@ impl SceneFiles {
 }
 
 fn prepared(document: SceneDocument, case: &Variant) -> Result<PreparedScene, CommandError> {
-    let refused = |error: SceneError| case.refuse(error.without_line());
-    Ok(PreparedScene {
-        scene: document.scene().map_err(refused)?,
-        fingerprint: fingerprint(&document.text().map_err(refused)?),
-        document,
-    })
+    PreparedScene::new(document).map_err(|error| case.refuse(error.without_line()))
 }

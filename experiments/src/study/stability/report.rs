@@ -32,10 +32,15 @@ pub fn report(_: &Stability, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
     page.drawing("divergence.svg", heat_map(&plot(rows)));
     page.part("What decides", &[]);
     breakdowns(rows, &groups, &mut page);
+    page.heading("Panics and numbers that are not finite");
     let faults = rows.having(|row| matches!(row.status(), Status::Panicked | Status::NotFinite));
-    let faults: Vec<String> = faults.iter().map(named).collect();
-    page.list("Panics and numbers that are not finite", &faults, Some("None."));
-    page.list("Runs of mpm that diverged", &refusals(rows), Some("None."));
+    page.list_of("named", faults.iter().map(named));
+    page.heading("Runs of mpm that diverged");
+    let refused = rows.with("method", MethodName::Mpm.as_str()).having(diverged);
+    if refused.len() > MOST_NAMED {
+        page.part("most", &[("most", &MOST_NAMED), ("all", &refused.len())]);
+    }
+    page.list_of("named", refused.iter().take(MOST_NAMED).map(named));
 
     let page = rows.tell([Status::Finite, Status::Refused], page);
     Ok(rows.tell([Status::Panicked, Status::NotFinite], page))
@@ -51,19 +56,21 @@ fn group(row: &Row) -> String {
 
 /// Shares of diverged runs, by one quantity at a time.
 fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
-    let numbers = [
+    let mut shares = |quantity: &str, lines: Vec<Line<'_>>| {
+        let repeated = [each("quantity", [quantity]), each("group", groups)];
+        page.lines_over("shares", &repeated, lines);
+    };
+    for (name, range, column) in [
         ("frame / target's frame", [1e-3, 1e3], "scale"),
         ("time step / default", super::draw::TIME_STEPS, "time_step_factor"),
         ("spacing / default", super::draw::SPACINGS, "spacing_factor"),
         ("start sd", [0.1, 10.0], "start_sd"),
         ("M", [2.0, 2000.0], "particles"),
         ("friction, above 0", [0.01, 100.0], "friction"),
-    ];
-    for (name, range, column) in numbers {
-        let lines = rows.lines_in_cells(column, range, CELLS);
-        page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
+    ] {
+        shares(name, rows.lines_in_cells(column, range, CELLS));
     }
-    let words = [
+    for (name, column) in [
         ("target", "target"),
         ("d", "dim"),
         ("basis", "basis"),
@@ -71,41 +78,18 @@ fn breakdowns(rows: &Rows<'_>, groups: &[String], page: &mut Page) {
         ("transfer", "transfer"),
         ("moment correction", "moment_correction"),
         ("elastic law", "material"),
-    ];
-    for (name, column) in words {
-        let lines = rows.sorted(column).into_iter();
-        let lines = lines.map(|(word, here)| Line::from(here).with("label", word));
-        page.lines_over("shares", &[each("quantity", [name]), each("group", groups)], lines);
+    ] {
+        let line = |(word, here)| Line::from(here).with("label", word);
+        shares(name, rows.sorted(column).into_iter().map(line).collect());
     }
 }
 
-/// The runs of the calibrated sampler that diverged, by name.
-fn refusals(rows: &Rows<'_>) -> Vec<String> {
-    let diverged = rows.with("method", MethodName::Mpm.as_str()).having(diverged);
-    let mut lines: Vec<String> = diverged.iter().take(MOST_NAMED).map(named).collect();
-    let count = diverged.len();
-    if count > MOST_NAMED {
-        let first = format!("The first {MOST_NAMED} of {count}; results.csv has them all.\n");
-        lines.insert(0, first);
-    }
-    lines
-}
-
-/// A case with what was drawn for it.
-fn named(row: &Row) -> String {
+/// A case with what came of it.
+fn named(row: &Row) -> Line<'_> {
     let what = match (row.status(), row.number("reach"), row.text("reason")) {
         (Status::Finite, Some(reach), _) => format!("escaped to {} target scales", number(reach)),
         (_, _, "") => row.text("message").to_owned(),
         (_, _, reason) => format!("{reason}: {}", row.text("message")),
     };
-    let drawn = "target | dim | basis | particles | scale | start_mean | start_sd | spacing_factor | time_step_factor";
-    let [target, dim, basis, particles, scale, mean, sd, spacing, step] = &row.cells(drawn)[..] else {
-        return what;
-    };
-    format!(
-        "- `{}`: {} on {target} (d = {dim}), {basis}, M = {particles}, frame × {scale}, start N({mean}, {sd}²), spacing × {spacing}, \
-         time step × {step}: {what}",
-        row.case(),
-        group(row),
-    )
+    Line::from(row).with("what", what)
 }

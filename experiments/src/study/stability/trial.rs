@@ -11,7 +11,6 @@ use rand::{RngExt, SeedableRng};
 use super::draw::Configuration;
 use crate::study::attempt::caught;
 use crate::study::prelude::*;
-use crate::study::value::single_line;
 
 /// Finite particles have escaped if one is this many times farther out than start and target could explain.
 const ESCAPE: f64 = 10.0;
@@ -29,7 +28,7 @@ pub fn run<const D: usize>(
     let frame = match wrong_frame(&own, case) {
         Ok(frame) => frame,
         Err(error) => {
-            refuse(row, &error, None, &error);
+            row.fail_in((&variant(&error), None), Failure::new(Status::Refused, error));
             return Ok(());
         }
     };
@@ -109,20 +108,11 @@ fn end<const D: usize>(row: &mut Row, own: &Frame<D>, frame: &Frame<D>, samples:
 
 /// Notes a typed error of the sampler.
 fn fail(row: &mut Row, error: &SampleError) {
-    match error {
-        SampleError::Mechanics { step, source } => refuse(row, source, Some(*step), error),
-        SampleError::ScoreNotFinite { step, .. } | SampleError::Diverged { step, .. } => {
-            refuse(row, error, Some(*step), error);
-        }
-        _ => refuse(row, error, None, error),
-    }
-}
-
-fn refuse(row: &mut Row, kind: &impl Debug, step: Option<usize>, error: &impl ToString) {
-    row.set("ending", Status::Refused);
-    row.set("reason", variant(kind));
-    row.set("failed_step", step);
-    row.set("message", single_line(error.to_string()));
+    let reason = match error {
+        SampleError::Mechanics { source, .. } => variant(source),
+        _ => variant(error),
+    };
+    row.fail_in((&reason, error.step()), Failure::new(Status::Refused, error));
 }
 
 /// The name of an error's variant.

@@ -15,6 +15,10 @@ fn statistics_have_names() {
         ["4.00", "`e`", "64", "0.500", "0.5"]
     );
     assert_eq!(here.cells("median of all error | quantile 1 error"), ["2.50", "4.00"]);
+    assert_eq!(
+        here.cells("middle error | last size | last mode"),
+        ["1.00", "64", MISSING]
+    );
     assert_eq!(here.with("case", "c").cell("percent error"), "100.0");
     assert_eq!(here.with("case", "d").cells("median of all error"), ["∞"]);
     assert_eq!(
@@ -51,6 +55,9 @@ fn statistics_of_rows_that_fulfil_conditions() {
         ("median error where method = mpm where size = 16", "2.50"),
         ("share where method = mpm where error where error ≤ 1", "67 %"),
         ("share where method = svgd where error", MISSING),
+        ("middle error", "2.00"),
+        ("rows where error ≤ size", "4"),
+        ("rows where error > method", "5"),
         ("rows where error about 1", "0"),
     ] {
         assert_eq!(rows.cell(statistic), expected, "{statistic}");
