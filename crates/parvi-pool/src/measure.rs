@@ -177,16 +177,17 @@ impl<const D: usize> Measure<D> {
         weighted.map(|(y, c)| c * f(y)).sum()
     }
 
-    /// Σ c f(y) with its standard error (Σ c² (f − f̄)²)^½ over the points that were evaluated.
+    /// Σ c f(y) with its standard error (Σ c² (f − f̄)²)^½ over the points that were evaluated. Free draws come from kernels with longer tails than the target's: of a function that grows faster than
+    /// a power of y they may know nothing ([`Pool::expectation`](crate::Pool::expectation) sees to that).
     pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
-        let value = self.integral(&f);
+        self.expectation_and_largest(f).0
+    }
+
+    /// The same, and the largest share of a single free draw in it, max |c (f − f̄)|.
+    pub(crate) fn expectation_and_largest(&self, f: impl Fn(&[f64; D]) -> f64) -> (Estimate, f64) {
         let points = self.points.iter().zip(&self.weights).zip(&self.evaluated);
-        let uncertain = points.filter(|((_, c), evaluated)| **evaluated && **c != 0.0);
-        let variance: f64 = uncertain.map(|((y, c), _)| (c * (f(y) - value)).powi(2)).sum();
-        Estimate {
-            value,
-            standard_error: variance.sqrt(),
-        }
+        let weighted = points.filter(|((_, c), _)| **c != 0.0);
+        Estimate::of_terms(weighted.map(|((y, c), evaluated)| (*c, f(y), *evaluated)))
     }
 
     /// Mean and standard deviation of every coordinate.

@@ -18,6 +18,9 @@ use crate::weights::effective_size;
 /// Of parts that stand for the same.
 const LARGEST_INCONSISTENCY: f64 = 3.0;
 
+/// Errors of a control variate over those without, from which on there is none.
+const WORTH_CONTROL: f64 = 2.0;
+
 /// Probability with which a piece that is seen from a share [`Pool::unseen`] of all draws is overlooked.
 const OVERLOOKED: f64 = 0.05;
 
@@ -146,9 +149,18 @@ impl<const D: usize> Pool<D> {
         moments(&self.positions, &self.weights)
     }
 
-    /// E\[f\] under the target, with control variates.
+    /// E\[f\] under the target, by the [`measure`](Self::measure) with its control variates, or by the weights alone, Σ w f ± (Σ w² (f − f̄)²)^½, where that has less than half of its error or than
+    /// the share of one of its free draws: kernels have longer tails than the target, in which a function such as e^y, a parameter that was made positive, may have no expectation.
     pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
-        self.measure.expectation(f)
+        let (controlled, largest) = self.measure.expectation_and_largest(&f);
+        let weighted = self.positions.iter().zip(&self.weights).filter(|(_, w)| **w > 0.0);
+        let (weighed, _) = Estimate::of_terms(weighted.map(|(y, w)| (*w, f(y), true)));
+        let error = weighed.standard_error;
+        if controlled.standard_error <= WORTH_CONTROL * error && largest <= error {
+            controlled
+        } else {
+            weighed
+        }
     }
 
     /// The quantile of one coordinate; NaN for an axis that is none, and a probability that is none.

@@ -1,7 +1,7 @@
 //! What weights guarantee.
 
 use mpm_tensor::Matrix;
-use parvi_targets::Gaussian;
+use parvi_targets::{Gaussian, Target};
 
 use crate::common::pool_of;
 
@@ -18,6 +18,35 @@ fn the_evidence_of_a_normal_law_is_one() {
         let square = pool.expectation(|x| x[0] * x[0]);
         assert!((square.value - 1.0).abs() < 5.0 * square.standard_error, "{square:?}");
         assert!(pool.quantile(1, 0.5).abs() < 0.1);
+    }
+}
+
+/// A parameter of exponential law, as its logarithm.
+struct LogarithmOfExponential;
+
+impl Target<1> for LogarithmOfExponential {
+    fn log_density(&self, y: &[f64; 1]) -> f64 {
+        y[0] - y[0].exp()
+    }
+
+    fn score(&self, y: &[f64; 1]) -> [f64; 1] {
+        [1.0 - y[0].exp()]
+    }
+}
+
+/// Kernels have longer tails than a target that falls off like e^−e^y, and in these e^y has no expectation.
+#[test]
+fn functions_that_grow_faster_than_the_kernels_fall_off_have_their_expectation() {
+    for (particles, seed) in [(300, 1), (300, 2), (2000, 1), (2000, 2)] {
+        let pool = pool_of(&LogarithmOfExponential, particles, seed).unwrap();
+        for (power, exact) in [(1, 1.0), (2, 2.0), (3, 6.0)] {
+            let found = pool.expectation(|y| y[0].exp().powi(power));
+            assert!(
+                (found.value / exact - 1.0).abs() < 0.1,
+                "{particles} {seed} {power}: {found:?}"
+            );
+            assert!((found.value - exact).abs() < 4.0 * found.standard_error, "{found:?}");
+        }
     }
 }
 
