@@ -8,7 +8,7 @@ use crate::deformation::{Deformation, deform};
 use crate::transfer::{
     CellField, Changes, GridNode, Moving, MovingParticle, Numbered, Transfer, Velocities, gather_cells,
 };
-use crate::volume_averaging::{average_volume_ratios, keep_volume_ratios};
+use crate::volume_averaging::{average_volume_ratios, keep_deformations};
 use crate::{Basis, BodyForce, Boundary, Medium, Member, Mpm};
 
 /// Of the nodal velocities, around a particle: interpolated, and its moment where that is asked for.
@@ -18,12 +18,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     /// v_p = Σ_i w_ip v_i, B_p = Σ_i w_ip v_i (x_i − x_p)ᵀ, x_p ← x_p + Δt Σ_i w_ip v_i; in the same pass, where the medium deforms,
     /// F_p ← (I + Δt Σ_i v_i ∇w_ipᵀ) F_p, then whatever the medium admits of it.
     pub(crate) fn move_and_deform_particles(&mut self, dt: f64, damping: f64) {
-        keep_volume_ratios(
-            self.volume_averaging,
-            &self.medium,
-            &self.particles,
-            &mut self.ratios_before,
-        );
+        keep_deformations(self.volume_averaging, &self.particles, &mut self.deformations_before);
         let mut moving = Moving::of(&mut self.particles);
         moving.stress_works = &mut self.stress_works;
         let (transfer, deformation) = (
@@ -44,12 +39,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
 
     /// [`move_and_deform_particles`](Self::move_and_deform_particles) without the motion.
     pub(crate) fn deform_particles(&mut self, dt: f64) {
-        keep_volume_ratios(
-            self.volume_averaging,
-            &self.medium,
-            &self.particles,
-            &mut self.ratios_before,
-        );
+        keep_deformations(self.volume_averaging, &self.particles, &mut self.deformations_before);
         let nodes = T::Node::velocities_alone(self.nodes.as_slice());
         let moving = Moving::of(&mut self.particles);
         let deformation = Deformation::of(&self.medium, dt, !self.volume_averaging.acts());
@@ -66,7 +56,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     /// The second half of a deformation with averaged volumes, at the positions that the basis was activated with.
     #[inline]
     pub(crate) fn average_volume_ratios(&mut self) {
-        let (before, nodes) = (&self.ratios_before, &mut self.node_volumes);
+        let (before, nodes) = (&self.deformations_before, &mut self.node_volumes);
         average_volume_ratios(&self.basis, &self.medium, &mut self.particles, before, nodes);
     }
 }

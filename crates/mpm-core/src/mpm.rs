@@ -46,8 +46,8 @@ pub struct Mpm<const D: usize, B, T: Transfer<D>, M: Medium<D>, F, C = NoBoundar
     pub(crate) node_forces: Vec<[f64; D]>,
     /// Volumes around the nodes; empty without volume averaging.
     pub(crate) node_volumes: NodeSums<NodeVolume>,
-    /// Volume ratios before the step, where their changes are averaged; else empty.
-    pub(crate) ratios_before: Vec<f64>,
+    /// F before the step, where changes of volumes are averaged; else empty.
+    pub(crate) deformations_before: Vec<Matrix<D>>,
     /// What presses on the nodes; empty without friction.
     pub(crate) normal_impulses: NodeSums<NormalImpulse<D>>,
     /// Particles in contact, by nodes; empty without a contact.
@@ -88,7 +88,7 @@ where
             node_positions: Vec::new(),
             node_forces: Vec::new(),
             node_volumes: NodeSums::default(),
-            ratios_before: Vec::new(),
+            deformations_before: Vec::new(),
             normal_impulses: NodeSums::default(),
             contact: NodalContact::default(),
         }
@@ -117,7 +117,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             node_positions: self.node_positions,
             node_forces: self.node_forces,
             node_volumes: self.node_volumes,
-            ratios_before: self.ratios_before,
+            deformations_before: self.deformations_before,
             normal_impulses: self.normal_impulses,
             contact: self.contact,
         }
@@ -130,7 +130,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             + self.basis.storage_bytes()
             + self.nodes.storage_bytes()
             + self.node_volumes.storage_bytes()
-            + self.ratios_before.capacity() * size_of::<f64>()
+            + self.deformations_before.capacity() * size_of::<Matrix<D>>()
             + self.normal_impulses.storage_bytes()
             + self.contact.storage_bytes()
             + self.velocity_filter.as_ref().map_or(0, VelocityFilter::storage_bytes)

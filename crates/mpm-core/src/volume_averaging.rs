@@ -1,5 +1,7 @@
 //! F̄: volume ratios averaged over the nodes, against volumetric locking.
 
+use mpm_tensor::Matrix;
+
 use crate::transfer::{Moving, NodeSums, Sum, gather_cells};
 use crate::{Basis, Medium, Member, NO_NODE, Particles};
 
@@ -12,7 +14,7 @@ pub enum VolumeAveraging {
     /// The volume ratios J themselves, in every step (Zhao, Jiang & Choo 2023). What is averaged is kept, so that gradients of J, and of the pressure with them, are smoothed on and on: a body at
     /// rest under its weight loses its pressure.
     Ratios,
-    /// Their changes in a step: J keeps the gradients that it has.
+    /// Their changes in a step. J keeps the gradients that it has while nothing moves; what the nodes do not see of it is forgotten as the particles are sheared.
     Changes,
 }
 
@@ -38,22 +40,43 @@ impl Sum for NodeVolume {
     }
 }
 
-/// The volume ratios before the particles deform, where their changes are averaged.
-pub(crate) fn keep_volume_ratios<const D: usize, M: Medium<D>>(
+/// How fast J is drawn to its average by shear: what nodes do not see of it falls as e^{−100 γ}, γ = ∫ ‖dev d‖ dt. With 10 a softening slope on grids throws particles, with 50 it does not.
+const PER_SHEAR: f64 = 100.0;
+
+/// The deformation gradients before the particles deform, where changes are averaged.
+pub(crate) fn keep_deformations<const D: usize, S>(
     averaging: VolumeAveraging,
-    medium: &M,
-    particles: &Particles<D, M::State>,
-    ratios: &mut Vec<f64>,
+    particles: &Particles<D, S>,
+    kept: &mut Vec<Matrix<D>>,
 ) {
-    ratios.clear();
+    kept.clear();
     if averaging == VolumeAveraging::Changes {
-        let each = particles.deformation_gradients.iter().zip(&particles.states);
-        ratios.extend(each.map(|(deformation, state)| medium.volume_ratio(deformation, state)));
+        kept.extend_from_slice(&particles.deformation_gradients);
     }
 }
 
-/// F_p ← (J̄_p / J_p)^{1/D} F_p with J̄_p = J'_p Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q J'_q), then whatever the medium admits of it: J' are the volume ratios `before` the step where their changes
-/// are averaged, 1 where `before` is empty (Zhao, Jiang & Choo 2023: the F̄ method of de Souza Neto et al. 1996, with averages over the grid).
+/// R_p = J'_p^{1 − θ}, J' the volume ratio before, θ = min(1, 100 ‖dev sym(ΔF)‖), ΔF = F F'⁻¹.
+fn references<const D: usize, M: Medium<D>>(
+    medium: &M,
+    particles: &Particles<D, M::State>,
+    before: &[Matrix<D>],
+) -> Vec<f64> {
+    let reference = |p: usize| {
+        let ratio = medium.volume_ratio(&before[p], &particles.states[p]);
+        let Some(inverse) = before[p].inverse() else {
+            return ratio;
+        };
+        let change = particles.deformation_gradients[p] * inverse;
+        let symmetric = (change + change.transpose()) * 0.5;
+        let shear = symmetric - Matrix::IDENTITY * (symmetric.trace() / D as f64);
+        let relaxed = (PER_SHEAR * shear.frobenius_norm()).min(1.0);
+        ratio.powf(1.0 - relaxed)
+    };
+    mpm_parallel::collect(before.len(), 1024, &reference)
+}
+
+/// F_p ← (J̄_p / J_p)^{1/D} F_p with J̄_p = R_p Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q R_q), then whatever the medium admits of it. R = 1 where the ratios are averaged (Zhao, Jiang & Choo 2023: the F̄
+/// method of de Souza Neto et al. 1996, with averages over the grid); for [`VolumeAveraging::Changes`], R = J'^{1 − θ} with J' from `before`: ln J then is ln J' + A (ln J − ln J') − θ (1 − A) ln J' to first order, A the average.
 ///
 /// J is the law's: for a plastic law in plane strain the elastic part of F alone does not have it.
 ///
@@ -64,11 +87,12 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     basis: &B,
     medium: &M,
     moving: &mut Particles<D, M::State>,
-    before: &[f64],
+    before: &[Matrix<D>],
     node_volumes: &mut NodeSums<NodeVolume>,
 ) {
     let particles = &*moving;
-    let before = |p: usize| before.get(p).copied().unwrap_or(1.0);
+    let references = references(medium, particles, before);
+    let reference = |p: usize| references.get(p).copied().unwrap_or(1.0);
     node_volumes.scatter_cells(
         basis,
         move |cell, particles_of_cell, stencil, (collected, volumes): &mut (B::Cell, [Vec<f64>; 2])| {
@@ -78,7 +102,7 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
                 volumes.resize(stencil.len(), 0.0);
             }
             for p in particles_of_cell {
-                let reference = particles.reference_volumes[p];
+                let volume = particles.reference_volumes[p];
                 let ratio = medium.volume_ratio(&particles.deformation_gradients[p], &particles.states[p]);
                 let sums = volumes.each_mut().map(Vec::as_mut_slice);
                 let member = Member {
@@ -86,7 +110,7 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
                     particle: p,
                     x: &particles.positions[p],
                 };
-                basis.deposit_scalars(member, [reference * before(p), reference * ratio], sums);
+                basis.deposit_scalars(member, [volume * reference(p), volume * ratio], sums);
             }
             let [before, after] = &*volumes;
             stencil.for_each_with(before.iter().zip(after), |node, (before, after)| {
@@ -111,7 +135,7 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
                     particle: p,
                     x: &data.positions[k],
                 };
-                let change = own / before(p);
+                let change = own / reference(p);
                 let average = basis.interpolate_scalar(member, ratios.seen_by(change));
                 let ratio = average / change;
                 let trial = if ratio > 0.0 && ratio < f64::INFINITY {

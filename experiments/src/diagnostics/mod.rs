@@ -56,7 +56,7 @@ pub struct Diagnostics {
     pool: Option<PoolSize>,
     /// Galerkin–Stein residual relative to independent draws.
     residual: Option<f64>,
-    /// Kernel Stein discrepancy (inverse multiquadric) in the particles' own standardised coordinates.
+    /// Kernel Stein discrepancy (inverse multiquadric) in the particles' own standardised coordinates; `null` where a score is not finite.
     kernel_stein_discrepancy: Option<f64>,
     /// One entry for each coordinate.
     coordinates: Vec<Coordinate>,
@@ -232,7 +232,7 @@ fn known<const D: usize>(cloud: &Cloud<'_, D>, size: f64) -> Result<Vec<[Known; 
     Ok((0..LEVELS.len()).map(of_level).collect())
 }
 
-/// The kernel Stein discrepancy; `None` for many particles, and for such as lie in a plane.
+/// The kernel Stein discrepancy; `None` for many particles, for such as lie in a plane, and where a score is not finite, as differences across an edge are.
 fn discrepancy<const D: usize>(
     target: &dyn CatalogueTarget<D>,
     points: &[[f64; D]],
@@ -249,6 +249,9 @@ fn discrepancy<const D: usize>(
     target.scores(points, &mut scores);
     for score in &mut scores {
         *score = frame.pull_back_score(score);
+    }
+    if !scores.iter().flatten().all(|component| component.is_finite()) {
+        return Ok(None);
     }
     let cloud = Cloud::with_optional_weights(&standard, weights)?;
     let found = kernel_stein_discrepancy(&cloud, &scores, &InverseMultiquadric::default())?;

@@ -47,6 +47,20 @@ fn a_density_in_python_has_its_evidence_and_the_same_bits_on_any_number_of_threa
     assert_eq!(particles[0], particles[1]);
 }
 
+/// Differences across the edge are no scores of the particles beside it.
+#[test]
+fn a_density_with_an_edge_has_diagnostics() {
+    let exponential = r#"awk '{ print ($1 != "density") ? "" : ($2 < 0 || $3 < 0) ? "-inf" : -$2 - $3; fflush() }'"#;
+    let directory = tempfile::tempdir().unwrap();
+    let output = sample_with("--seed 1 --diagnostics d.json", directory.path(), exponential, "2");
+    assert!(output.status.success(), "{}", stderr(&output));
+    let found = std::fs::read_to_string(directory.path().join("d.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+    assert!(found["kernel_stein_discrepancy"].is_null(), "{found}");
+    let mean = found["coordinates"][0]["mean"]["value"].as_f64().unwrap();
+    assert!((mean - 1.0).abs() < 0.05, "{mean}");
+}
+
 #[test]
 fn what_is_wrong_with_a_program_is_said_with_the_question() {
     let ending = "for n in 1 2 3 4 5 6 7 8 9; do read what x; if [ x$what = xscore ]; then echo 0 0; else echo -$n; fi; done; exit 7";

@@ -22,3 +22,4 @@ mod resume;
 mod runs;
 mod scenes;
 mod shapes;
+mod volume_averaging;

@@ -1,0 +1,137 @@
+//! Averaged volumes take away locking, and leave a body at rest its pressure where their changes are averaged.
+
+use mpm_scenes::{Scene, Snapshot, frames};
+
+const COLUMN: &str = r#"
+title = "column under its weight"
+dimension = 1
+gravity = [-2.0]
+gravity_ramp = 1.0
+
+[domain]
+lower = [0.0]
+upper = [2.0]
+
+[grid]
+spacing = 0.1
+
+[transfer]
+kind = "apic"
+
+[time]
+end = 20.0
+damping = 5.0
+step = 0.001
+
+[materials.soft]
+law = "neo-hookean"
+density = 1000.0
+young_modulus = 1e5
+poisson_ratio = 0.3
+
+[[bodies]]
+name = "column"
+material = "soft"
+shape = { kind = "box", lower = [0.0], upper = [1.0] }
+
+[[walls]]
+axis = "x"
+side = "lower"
+condition = "slip"
+
+[output]
+interval = 20.0
+"#;
+
+/// A cantilever two cells thick, of a nearly incompressible material.
+const BEAM: &str = r#"
+title = "cantilever under its weight"
+dimension = 2
+gravity = [0.0, -0.01]
+gravity_ramp = 8.0
+
+[domain]
+lower = [0.0, 0.0]
+upper = [5.0, 2.0]
+
+[grid]
+spacing = 0.25
+
+[transfer]
+kind = "apic"
+
+[time]
+end = 20.0
+damping = 2.0
+step = 0.0005
+
+[materials.soft]
+law = "neo-hookean"
+density = 1000.0
+young_modulus = 1e6
+poisson_ratio = 0.49
+
+[[bodies]]
+name = "beam"
+material = "soft"
+shape = { kind = "box", lower = [0.0, 1.0], upper = [4.0, 1.5] }
+
+[[walls]]
+axis = "x"
+side = "lower"
+condition = "fixed"
+
+[output]
+interval = 20.0
+"#;
+
+/// The last frame of a scene with such averaging.
+fn last(scene: &str, averaging: &str) -> Snapshot {
+    let text = scene.replace("[domain]", &format!("volume_averaging = {averaging}\n\n[domain]"));
+    let scene = Scene::parse(&text, "scene.toml".as_ref()).expect("a scene");
+    let mut last = Snapshot::default();
+    frames(&scene, &mut |snapshot| last = snapshot).expect("a run");
+    last
+}
+
+/// p = ρ g (1 − X) over the reference height: the weight above.
+#[test]
+fn a_column_at_rest_keeps_its_pressure() {
+    let pressure_at = |averaging: &str, height: f64| {
+        let frame = last(COLUMN, averaging);
+        let of = |x: f64| (x - height).abs();
+        let nearest = (0..frame.reference_positions.len())
+            .min_by(|&a, &b| of(frame.reference_positions[a]).total_cmp(&of(frame.reference_positions[b])));
+        let particle = nearest.expect("particles");
+        -frame.stresses[particle] / (2000.0 * (1.0 - frame.reference_positions[particle]))
+    };
+    for height in [0.25, 0.5] {
+        let changes = pressure_at("\"changes\"", height);
+        assert!((changes - 1.0).abs() < 0.03, "{changes} at {height}");
+    }
+    // The ratios are averaged until nothing is left of their gradient.
+    let slope = |averaging| 0.75 * pressure_at(averaging, 0.25) - 0.25 * pressure_at(averaging, 0.75);
+    assert!((slope("\"changes\"") - 0.5).abs() < 0.03 && slope("true") < 0.1);
+}
+
+/// The deflection of the end, of a Timoshenko beam in plane strain: q L⁴/(8 E' I) + q L²/(2 κ G A) with E' = E/(1 − ν²), κ = 5/6.
+#[test]
+fn a_nearly_incompressible_cantilever_does_not_lock() {
+    let deflection = 5.0 * 256.0 / (8.0 * 1e6 / (1.0 - 0.49 * 0.49) * 0.125 / 12.0)
+        + 5.0 * 16.0 / (2.0 * 5.0 / 6.0 * 1e6 / 2.98 * 0.5);
+    let tip = |averaging: &str| {
+        let frame = last(BEAM, averaging);
+        let pairs = frame
+            .reference_positions
+            .chunks_exact(2)
+            .zip(frame.positions.chunks_exact(2));
+        let end = pairs
+            .filter(|(start, _)| start[0] > 3.9)
+            .map(|(start, x)| start[1] - x[1]);
+        let (sum, count) = end.fold((0.0, 0.0), |(sum, count), u| (sum + u, count + 1.0));
+        sum / count / deflection
+    };
+    let (locked, averaged) = (tip("false"), tip("\"changes\""));
+    assert!(locked < 0.94, "{locked}");
+    assert!((averaged - 1.0).abs() < 0.04, "{averaged}");
+}
