@@ -5,6 +5,7 @@ use mpm_core::{
     Transfer, VelocityNode,
 };
 use mpm_kernels::{Cubic, Deposit, Quadratic, Spline};
+use mpm_tensor::vector;
 use rand::RngExt;
 
 use crate::scenes::{Pull, free, generator, neo_hookean, normal};
@@ -45,10 +46,15 @@ struct Room<S, const W: usize, const D: usize> {
 
 impl<S: Spline<W>, const W: usize, const D: usize> Room<S, W, D> {
     fn new(cells: [usize; D]) -> Self {
+        Self::filled(|at| std::array::from_fn(|a| H * cells[a] as f64 * at[a]))
+    }
+
+    /// Filled by points of the unit cube, put where `place` says.
+    fn filled(place: impl Fn([f64; D]) -> [f64; D]) -> Self {
         let mut random = generator(3);
         let mut basis = SplineGrid::<S, W, D>::new([0.0; D], H).unwrap();
-        let place = |_| std::array::from_fn(|a| H * cells[a] as f64 * random.random::<f64>());
-        let cloud: Vec<[f64; D]> = (0..3000).map(place).collect();
+        let mut point = || std::array::from_fn(|_| random.random::<f64>());
+        let cloud: Vec<[f64; D]> = (0..3000).map(|_| place(point())).collect();
         let particles = basis.rebuild(&cloud).unwrap();
         let node = |_| {
             let (scalar, velocity) = (random.random::<f64>() + 0.1, normal::<D>(&mut random));
@@ -94,34 +100,32 @@ impl<S: Spline<W>, const W: usize, const D: usize> Room<S, W, D> {
         })
     }
 
-    /// The largest error of the condition at a wall, at the points of it below the particles.
-    fn error_at(&self, wall: &Plane<D>) -> f64 {
-        let axis = wall.normal.iter().position(|n| *n != 0.0).expect("a normal");
+    /// The largest error of the condition at a wall, at the points of it below the particles that are farther than `from` along the first axis.
+    fn error_at(&self, wall: &Plane<D>, from: f64) -> f64 {
         let mut largest = 0.0f64;
         for particle in self.particles.iter().step_by(50) {
-            let mut x = *particle;
-            x[axis] = wall.point[axis];
+            let height = vector::dot(&wall.normal, &vector::subtract(particle, &wall.point));
+            let x = vector::add_scaled(particle, -height, &wall.normal);
+            if x[0] < from {
+                continue;
+            }
             let mut basis = SplineGrid::<S, W, D>::new([0.0; D], H).unwrap();
             basis.rebuild(&[x]).unwrap();
             let mut velocity = [0.0; D];
             basis.for_each_node(0, &x, |_, entry| {
-                let at: [f64; D] = std::array::from_fn(|a| x[a] + entry.offset[a]);
+                let at = vector::add(&x, &entry.offset);
                 if let Some(number) = self.basis.node_number(&at) {
-                    for (sum, v) in velocity.iter_mut().zip(self.nodes[number as usize].velocity()) {
-                        *sum += entry.weight * v;
-                    }
+                    let node = self.nodes[number as usize].velocity();
+                    vector::accumulate(&mut velocity, entry.weight, node);
                 } else {
                     assert!(entry.weight.abs() < 1e-12, "a node at {at:?} is missing");
                 }
             });
-            for a in 0..D {
-                let holds = a == axis || wall.contact == STICK;
-                largest = largest.max(if holds {
-                    (velocity[a] - wall.velocity[a]).abs()
-                } else {
-                    0.0
-                });
-            }
+            let error = vector::subtract(&velocity, &wall.velocity);
+            largest = largest.max(match wall.contact {
+                STICK => vector::norm(&error),
+                _ => vector::dot(&error, &wall.normal).abs(),
+            });
         }
         largest
     }
@@ -135,7 +139,7 @@ fn holds<S: Spline<W>, const W: usize, const D: usize>(cells: [usize; D], ends: 
     let before: Vec<_> = (0..D).map(|axis| room.sums(axis)).collect();
     room.constrain(&walls);
     for wall in &walls {
-        let error = room.error_at(wall);
+        let error = room.error_at(wall, f64::NEG_INFINITY);
         assert!(error < 1e-12, "{what}: {error} at {:?}", wall.point);
     }
     if walls.iter().all(|wall| wall.velocity == [0.0; D]) {
@@ -148,7 +152,7 @@ fn holds<S: Spline<W>, const W: usize, const D: usize>(cells: [usize; D], ends: 
     let once: Vec<_> = room.nodes.iter().map(|node| *node.velocity()).collect();
     room.constrain(&walls);
     for (node, once) in room.nodes.iter().zip(&once) {
-        let change = mpm_tensor::vector::distance(node.velocity(), once);
+        let change = vector::distance(node.velocity(), once);
         assert!(change < 1e-12, "{what}: {change}");
     }
 }
@@ -190,7 +194,7 @@ fn images_of_nodes_at_a_wall_that_lets_go_stay_images() {
         let mut room = Room::<Quadratic, 3, 2>::new([4, 1]);
         let before = room.sums(0).0;
         room.constrain(&order.map(|k| both[k]));
-        assert!(room.error_at(&both[0]) < 1e-12 && (room.sums(0).0 - before).abs() < 1e-12);
+        assert!(room.error_at(&both[0], f64::NEG_INFINITY) < 1e-12 && (room.sums(0).0 - before).abs() < 1e-12);
         for (x, node) in room.positions.iter().zip(&room.nodes) {
             if (x[1] - H).abs() < 1e-9 {
                 let image = room.basis.node_number(&[x[0], -x[1]]).expect("active");
@@ -200,6 +204,28 @@ fn images_of_nodes_at_a_wall_that_lets_go_stay_images() {
                 assert!(v <= H / 0.1, "{v}");
             }
         }
+    }
+}
+
+/// Walls that meet at 45°: all images of a node, up to seven, beyond the stencil of their edge.
+#[test]
+fn walls_at_half_a_right_angle_hold_and_let_slide() {
+    let half = 0.5f64.sqrt();
+    for [floor, slope] in [[SLIP, SLIP], [STICK, SLIP], [SLIP, STICK], [STICK, STICK]] {
+        let walls = [([0.0, 1.0], floor), ([half, -half], slope)].map(|(normal, contact)| Plane {
+            point: [0.0; 2],
+            normal,
+            contact,
+            velocity: [0.0; 2],
+        });
+        let mut room = Room::<Quadratic, 3, 2>::filled(|[a, b]| [2.0 * a.max(b), 2.0 * a.min(b)]);
+        let before = room.sums(0).1;
+        room.constrain(&walls);
+        for wall in &walls {
+            let error = room.error_at(wall, 1.5 * H);
+            assert!(error < 1e-12, "{floor:?}, {slope:?}: {error}");
+        }
+        assert!(room.sums(0).1 < before);
     }
 }
 
@@ -238,7 +264,7 @@ fn the_width_does_not_matter<S: Spline<W>, const W: usize, T: Transfer<2> + Copy
     let wide = compressed::<S, W, T>(transfer, 4);
     for cells in 1..=3 {
         for (narrow, wide) in compressed::<S, W, T>(transfer, cells).iter().zip(&wide) {
-            let error = mpm_tensor::vector::distance(narrow, wide);
+            let error = vector::distance(narrow, wide);
             assert!(error < 1e-12, "{}, {cells} cells: {error}", S::NAME);
         }
     }
