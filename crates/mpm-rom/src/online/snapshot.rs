@@ -27,8 +27,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             .iter()
             .zip(&volume_ratios)
             .map(|(stress, ratio)| *stress * (1.0 / ratio));
-        let across = |(F, ratio): (&Matrix<D>, &f64)| {
-            let stress = self.body.material.kirchhoff_stress_across(F);
+        let across = |(gradient, ratio): (&Matrix<D>, &f64)| {
+            let stress = self.body.material.kirchhoff_stress_across(gradient);
             stress.map_or(0.0, |stress| stress / ratio)
         };
         let stresses_across = match D {
