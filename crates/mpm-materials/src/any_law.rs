@@ -108,6 +108,10 @@ impl<const D: usize, L: Law<D, State: Remembered>> Law<D> for Numbered<L> {
         self.0.kirchhoff_stress(F, &L::State::recall(memory), velocity_gradient)
     }
 
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, memory: &Memory) -> Option<f64> {
+        self.0.kirchhoff_stress_across(F, &L::State::recall(memory))
+    }
+
     fn wave_speed(&self, F: &Matrix<D>, memory: &Memory, reference_density: f64) -> f64 {
         self.0.wave_speed(F, &L::State::recall(memory), reference_density)
     }
@@ -190,6 +194,10 @@ impl<const D: usize> Law<D> for AnyLaw<'_, D> {
         self.law.kirchhoff_stress(F, memory, velocity_gradient)
     }
 
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, memory: &Memory) -> Option<f64> {
+        self.law.kirchhoff_stress_across(F, memory)
+    }
+
     fn wave_speed(&self, F: &Matrix<D>, memory: &Memory, reference_density: f64) -> f64 {
         self.law.wave_speed(F, memory, reference_density)
     }
@@ -251,6 +259,10 @@ mod tests {
                 );
                 assert_eq!(any.volume_ratio(&F[p], &memory[p]), law.volume_ratio(&F[p], &own[p]));
                 assert_eq!(any.check(&F[p]), law.check(&F[p]));
+                assert_eq!(
+                    any.kirchhoff_stress_across(&F[p], &memory[p]),
+                    law.kirchhoff_stress_across(&F[p], &own[p])
+                );
             }
             let (mut expected, mut stresses) = ([Matrix::ZERO; 40], [Matrix::ZERO; 40]);
             law.kirchhoff_stresses(&F, &own, &rates, &mut expected);

@@ -51,6 +51,11 @@ impl<const D: usize> Law<D> for DeformingGas {
         Matrix::diagonal(&[-self.gas.kirchhoff_pressure(F, state.reference_density); D])
     }
 
+    /// −κ ρ₀.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, state: &GasState) -> Option<f64> {
+        Some(-self.gas.kirchhoff_pressure(F, state.reference_density))
+    }
+
     /// c = √(κ ρ₀ / `reference_density`), which is √κ.
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, state: &GasState, reference_density: f64) -> f64 {

@@ -57,6 +57,12 @@ impl<const D: usize> Material<D> for FixedCorotated {
         shifted(stress, self.moduli.first_lame_parameter() * (J - 1.0) * J)
     }
 
+    /// λ (J − 1) J.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>) -> Option<f64> {
+        let J = volume_ratio(F);
+        Some(self.moduli.first_lame_parameter() * (J - 1.0) * J)
+    }
+
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
         let (strain, J) = corotated_strain(F);
         let pressure = self.moduli.first_lame_parameter() * (J - 1.0) * J;

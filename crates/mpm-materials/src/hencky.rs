@@ -82,6 +82,11 @@ impl<const D: usize> Material<D> for Hencky {
         })
     }
 
+    /// λ ln J.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>) -> Option<f64> {
+        Some(self.moduli.first_lame_parameter() * log_volume_ratio(F))
+    }
+
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
         Material::kirchhoff_stress(self, F) * inverse_transpose(F)
     }

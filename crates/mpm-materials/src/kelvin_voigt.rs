@@ -81,6 +81,11 @@ impl<const D: usize> Law<D> for KelvinVoigt {
         elastic + velocity_gradient.symmetric_part() * (2.0 * self.viscosity * F.determinant())
     }
 
+    /// That of the spring: nothing moves across.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, _state: &()) -> Option<f64> {
+        Material::kirchhoff_stress_across(&self.spring, F)
+    }
+
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, _state: &(), reference_density: f64) -> f64 {
         Material::wave_speed(&self.spring, F, reference_density)

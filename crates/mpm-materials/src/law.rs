@@ -55,6 +55,12 @@ pub trait Law<const D: usize>: Sync {
     /// unless the law is [`rate_dependent`](Self::rate_dependent). Not finite where [`check`](Self::check) fails.
     fn kirchhoff_stress(&self, F: &Matrix<D>, state: &Self::State, velocity_gradient: &Matrix<D>) -> Matrix<D>;
 
+    /// τ along each axis that D < 3 leaves out, where nothing strains: plane strain for D = 2, uniaxial strain for D = 1. `None` where the law does not know it. Not finite where
+    /// [`check`](Self::check) fails.
+    fn kirchhoff_stress_across(&self, _F: &Matrix<D>, _state: &Self::State) -> Option<f64> {
+        None
+    }
+
     /// An upper bound of the speed of small elastic waves on the deformed state, as [`Material::wave_speed`]. Plastic
     /// flow only makes them slower; viscosity is not in it.
     fn wave_speed(&self, F: &Matrix<D>, state: &Self::State, reference_density: f64) -> f64;
@@ -115,6 +121,10 @@ impl<const D: usize, M: Material<D> + ?Sized> Law<D> for M {
     #[inline(always)]
     fn kirchhoff_stress(&self, F: &Matrix<D>, _state: &(), _velocity_gradient: &Matrix<D>) -> Matrix<D> {
         Material::kirchhoff_stress(self, F)
+    }
+
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, _state: &()) -> Option<f64> {
+        Material::kirchhoff_stress_across(self, F)
     }
 
     #[inline(always)]

@@ -46,6 +46,12 @@ impl<const D: usize> Law<D> for LinearCauchy {
         shifted(strain * (2.0 * self.moduli.shear_modulus() * J), pressure)
     }
 
+    /// J λ tr ε.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, _state: &()) -> Option<f64> {
+        let strain = (*F - Matrix::IDENTITY).trace();
+        Some(self.moduli.first_lame_parameter() * strain * F.determinant())
+    }
+
     /// ρ₀ c² = |J| Λ (|λ| + 2μ) with a bound of the largest stretch Λ of F.
     ///
     /// Along a nᵀ, with g = Fᵀ n, the traction of δP is J (λ (g · a) n + μ (g · n) a + μ (a · n) g), no longer than |J| |g| (|λ| + 2μ), and |g| ≤ Λ. At rest that is the speed of pressure waves for λ ≥ 0.

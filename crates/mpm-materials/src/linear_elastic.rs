@@ -47,6 +47,11 @@ impl<const D: usize> Material<D> for LinearElastic {
         self.first_piola_kirchhoff(F) * F.transpose()
     }
 
+    /// λ tr ε.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>) -> Option<f64> {
+        Some(self.moduli.first_lame_parameter() * small_strain(F).trace())
+    }
+
     #[inline]
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
         let strain = small_strain(F);

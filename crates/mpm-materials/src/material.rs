@@ -22,6 +22,11 @@ pub trait Material<const D: usize>: Sync {
     /// [`check`](Self::check) fails gives a stress that is not finite.
     fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D>;
 
+    /// τ along each axis that D < 3 leaves out, as [`Law::kirchhoff_stress_across`](crate::Law::kirchhoff_stress_across).
+    fn kirchhoff_stress_across(&self, _F: &Matrix<D>) -> Option<f64> {
+        None
+    }
+
     /// P = ∂ψ/∂F, the first Piola–Kirchhoff stress. Not finite where [`check`](Self::check) fails.
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D>;
 
@@ -96,6 +101,10 @@ impl<const D: usize, M: Material<D> + ?Sized> Material<D> for &M {
 
     fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D> {
         (**self).kirchhoff_stress(F)
+    }
+
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>) -> Option<f64> {
+        (**self).kirchhoff_stress_across(F)
     }
 
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {

@@ -46,6 +46,11 @@ impl<const D: usize> Material<D> for NeoHookean {
         shifted(left_cauchy_green(F) * mu, pressure - mu)
     }
 
+    /// λ ln J.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>) -> Option<f64> {
+        Some(self.moduli.first_lame_parameter() * log_volume_ratio(F))
+    }
+
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
         let mu = self.moduli.shear_modulus();
         let pressure = self.moduli.first_lame_parameter() * log_volume_ratio(F);

@@ -117,6 +117,12 @@ impl<const D: usize> Law<D> for Snow {
         Material::kirchhoff_stress(&self.elastic, F) * self.stiffening(state)
     }
 
+    /// h times that of the elastic part: a stretch of one is within all bounds.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, state: &SnowState) -> Option<f64> {
+        let elastic = Material::kirchhoff_stress_across(&self.elastic, F)?;
+        Some(elastic * self.stiffening(state))
+    }
+
     fn wave_speed(&self, F: &Matrix<D>, state: &SnowState, reference_density: f64) -> f64 {
         Material::wave_speed(&self.elastic, F, reference_density) * self.stiffening(state).sqrt()
     }

@@ -185,6 +185,13 @@ impl<const D: usize> Law<D> for SofteningHencky {
         })
     }
 
+    /// 2μ ε_z + λ tr ε over all axes.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, state: &SofteningState) -> Option<f64> {
+        let trace = log_volume_ratio(F) + axes_left_out(D) as f64 * state.out_of_plane_strain;
+        let moduli = self.elastic.moduli;
+        Some(2.0 * moduli.shear_modulus() * state.out_of_plane_strain + moduli.first_lame_parameter() * trace)
+    }
+
     /// That of [`Hencky`], with the pressure of all axes.
     #[inline]
     fn wave_speed(&self, F: &Matrix<D>, state: &SofteningState, reference_density: f64) -> f64 {

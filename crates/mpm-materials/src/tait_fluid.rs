@@ -139,6 +139,12 @@ impl<const D: usize> Law<D> for TaitFluid {
         shifted(stress, isotropic)
     }
 
+    /// −J p: the deviator of D dimensions has no part across.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, _state: &()) -> Option<f64> {
+        let J = F.determinant();
+        Some(-J * self.pressure(J))
+    }
+
     /// c J⁻³ √(ρ₀ / `reference_density`) for J < 1; at J ≥ 1 the speed at rest, with which the fluid is met when it
     /// comes together.
     #[inline]

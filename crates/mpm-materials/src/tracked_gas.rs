@@ -41,6 +41,11 @@ impl<const D: usize> Material<D> for TrackedGas {
         Matrix::diagonal(&[-self.gas.kirchhoff_pressure(F, self.reference_density); D])
     }
 
+    /// −κ ρ₀.
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>) -> Option<f64> {
+        Some(-self.gas.kirchhoff_pressure(F, self.reference_density))
+    }
+
     fn first_piola_kirchhoff(&self, F: &Matrix<D>) -> Matrix<D> {
         inverse_transpose(F) * -self.gas.kirchhoff_pressure(F, self.reference_density)
     }

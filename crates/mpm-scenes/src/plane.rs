@@ -44,6 +44,58 @@ pub(crate) fn build<const D: usize>(
     }
 }
 
+/// A room whose borders are not known yet: no position that a wall can have is at one.
+const UNKNOWN: f64 = f64::MAX;
+
+/// Planes whose points differ along the normal by less than this share of their largest coordinate are one.
+const SAME: f64 = 1e-9;
+
+/// Whether all walls in the same plane, on the same side of it, say the same. Borders of a scene without a domain, that of its mesh, are known with `room` alone.
+///
+/// # Errors
+/// [`SceneFault::Value`] with what a wall says in another way than an earlier one, and what [`build`] says.
+pub(crate) fn check_alike<const D: usize>(scene: &Scene, room: Option<&Bounds<D>>) -> Result<(), SceneFault> {
+    let unknown = Bounds {
+        lower: [-UNKNOWN; D],
+        upper: [UNKNOWN; D],
+    };
+    let room = room.unwrap_or(&unknown);
+    let mut earlier: Vec<([f64; D], [f64; D])> = Vec::new();
+    for (index, wall) in scene.walls.iter().enumerate() {
+        let (point, normal) = build(room, index, wall)?;
+        let largest = |x: &[f64; D]| x.iter().fold(0.0f64, |largest, c| largest.max(c.abs()));
+        let same = |(other, direction): &([f64; D], [f64; D])| {
+            let apart = algebra::dot(&algebra::subtract(&point, other), &normal);
+            largest(&algebra::subtract(&normal, direction)) <= SAME
+                && apart.abs() <= SAME * largest(&point).max(largest(other))
+        };
+        if let Some(first) = earlier.iter().position(same) {
+            let (other, field) = (&scene.walls[first], |key: &str| format!("walls[{index}].{key}"));
+            let expected = format!("that of walls[{first}], which is in the same plane");
+            within(
+                &field("condition"),
+                wall.condition,
+                wall.condition == other.condition,
+                &expected,
+            )?;
+            within(
+                &field("velocity"),
+                &wall.velocity,
+                wall.velocity == other.velocity,
+                &expected,
+            )?;
+            within(
+                &field("friction"),
+                wall.friction,
+                wall.friction == other.friction,
+                &expected,
+            )?;
+        }
+        earlier.push((point, normal));
+    }
+    Ok(())
+}
+
 /// Where particles may be in a run: the domain, and a cell beyond where a wall stands at its border. Walls are felt by nodes, and particles that touch one may be a little behind it.
 ///
 /// # Errors

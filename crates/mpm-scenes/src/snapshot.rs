@@ -18,6 +18,8 @@ pub struct Snapshot {
     pub velocities: Vec<f64>,
     /// Cauchy stresses σ_p = τ_p / J_p.
     pub stresses: Vec<f64>,
+    /// Cauchy stresses along each axis that fewer than three dimensions leave out, where nothing strains; 0 where the law does not know it. Empty in three dimensions.
+    pub stresses_across: Vec<f64>,
     /// Deformation gradients F_p.
     pub deformation_gradients: Vec<f64>,
     /// Volume ratios J_p = det F_p.

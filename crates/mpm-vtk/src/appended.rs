@@ -41,19 +41,24 @@ impl Appended {
         self.floats(name, wide, &widened(dimension, wide, values))
     }
 
-    /// Matrices of `dimension` rows and columns each, row by row; of fewer than three the others are those of `diagonal` times the identity.
-    pub fn matrices(&mut self, name: &str, dimension: usize, values: &[f64], diagonal: f64) -> String {
+    /// Matrices of `dimension` rows and columns each, row by row; of fewer than three the others are those of `diagonal` of its number times the identity.
+    pub fn matrices(
+        &mut self,
+        name: &str,
+        dimension: usize,
+        values: &[f64],
+        diagonal: impl Fn(usize) -> f64,
+    ) -> String {
         let (d, wide) = (dimension.max(1), dimension.max(3));
-        let entry = |matrix: &[f64], i: usize, j: usize| match i < d && j < d {
-            true => matrix[i * d + j],
-            false => diagonal * f64::from(u8::from(i == j)),
+        let whole = |(number, matrix): (usize, &[f64])| {
+            let entry = |k: usize| match [k / wide, k % wide] {
+                [i, j] if i < d && j < d => matrix[i * d + j],
+                [i, j] if i == j => diagonal(number),
+                _ => 0.0,
+            };
+            (0..wide * wide).map(entry).collect::<Vec<_>>()
         };
-        let whole = |matrix: &[f64]| {
-            (0..wide * wide)
-                .map(|k| entry(matrix, k / wide, k % wide))
-                .collect::<Vec<_>>()
-        };
-        let entries: Vec<f64> = values.chunks_exact(d * d).flat_map(whole).collect();
+        let entries: Vec<f64> = values.chunks_exact(d * d).enumerate().flat_map(whole).collect();
         self.floats(name, wide * wide, &entries)
     }
 
@@ -104,7 +109,7 @@ mod tests {
                 .contains("NumberOfComponents=\"3\"")
         );
         assert!(appended.vectors("w", 4, &[1.0; 4]).contains("NumberOfComponents=\"4\""));
-        appended.matrices("F", 2, &[1.0, 2.0, 3.0, 4.0], 1.0);
+        appended.matrices("F", 2, &[1.0, 2.0, 3.0, 4.0], |_| 1.0);
         appended.positions(4, &[5.0, 6.0, 7.0, 8.0]);
         let numbers = |list: &[f64]| {
             let mut bytes = (8 * list.len() as u64).to_le_bytes().to_vec();

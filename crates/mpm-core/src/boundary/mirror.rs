@@ -1,6 +1,6 @@
 use mpm_tensor::vector;
 
-use super::{Contact, Plane};
+use super::Plane;
 use crate::GridNode;
 
 /// Make the velocities of an outer and an inner node images of each other: with relative velocities u and the reflection R u = −u at a wall that holds, R u =
@@ -16,10 +16,7 @@ pub fn mirror<const D: usize, N: GridNode<D>>(plane: &Plane<D>, pair: [usize; 2]
     }
     masses[outer] = mass;
     masses[inner] = mass;
-    let reflect = |u: &[f64; D]| match plane.contact {
-        Contact::Slip => vector::add_scaled(u, -2.0 * vector::dot(&plane.normal, u), &plane.normal),
-        _ => u.map(|c| -c),
-    };
+    let reflect = |u: &[f64; D]| plane.reflect_relative(u);
     let relative = |number: usize| vector::subtract(nodes[number].velocity(), &plane.velocity);
     let (own, image) = (relative(inner), reflect(&relative(outer)));
     let mean: [f64; D] = std::array::from_fn(|a| (inner_mass * own[a] + outer_mass * image[a]) / mass);

@@ -1,6 +1,7 @@
 //! What the velocities of the nodes obey beside the balance of momentum: walls and obstacles.
 
 mod contact;
+mod folds;
 mod held_surface;
 mod image_solve;
 mod mirror;
@@ -20,6 +21,7 @@ pub use prescribed::PrescribedVelocity;
 pub use signed_distance::{HalfSpace, SignedDistance};
 pub use surface::Extents;
 
+use self::folds::Folds;
 use crate::{Basis, GridNode, MpmError};
 
 /// The grid when a boundary is asked: after forces, before particles move.
@@ -81,6 +83,8 @@ pub struct Boundaries<const D: usize> {
     pub obstacles: Vec<Obstacle<D>>,
     /// Given velocities; the last one has the last word.
     pub prescribed: Vec<Box<dyn PrescribedVelocity<D>>>,
+    /// Images of images.
+    folds: Folds,
     /// Masses that mirrored nodes have together.
     masses: Vec<f64>,
     /// Gaps between a surface and the material around the nodes.
@@ -96,6 +100,7 @@ impl<const D: usize> Boundaries<D> {
             surfaces: Vec::new(),
             obstacles,
             prescribed: Vec::new(),
+            folds: Folds::default(),
             masses: Vec::new(),
             gaps: Vec::new(),
         }
@@ -144,9 +149,13 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             self.masses.clear();
             self.masses.extend(nodes.iter().map(GridNode::mass));
         }
+        self.folds
+            .fold(&self.walls, basis, motion, (&mut self.masses, &mut *nodes));
         for wall in &self.walls {
-            wall.constrain(basis, motion, (&mut self.masses, &mut self.gaps), nodes);
+            let scratch = (&mut *self.masses, &mut self.gaps);
+            wall.constrain(basis, motion, &self.folds, scratch, nodes);
         }
+        self.folds.unfold(&self.walls, nodes);
         for surface in &mut self.surfaces {
             surface.constrain(basis, &mut self.masses, nodes);
         }

@@ -1,5 +1,6 @@
 use mpm_tensor::vector;
 
+use super::folds::{Folds, Role};
 use super::mirror::mirror;
 use super::surface::Surface;
 use super::{Contact, GridMotion};
@@ -11,7 +12,7 @@ use crate::{Basis, GridNode};
 /// cannot leave the wall ([`Contact::Stick`], [`Contact::Slip`]), the node is the image of its mirror node: the field of velocities is
 /// odd (or, along a sliding wall, even) about the wall, so the condition holds on the wall itself and the order of the basis is kept. The
 /// pair moves with the momentum both have (the Galerkin method on the odd or even fields), so mass and momentum
-/// along the wall are conserved. Elsewhere, and where material may leave, the condition holds at the nodes on and behind the wall;
+/// along the wall are conserved. Images of images, between walls that are a few nodes apart, are images, too. Elsewhere, and where material may leave, the condition holds at the nodes on and behind the wall;
 /// material that may leave meets the wall where its particles do ([`Contact::Separate`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane<const D: usize> {
@@ -26,26 +27,51 @@ pub struct Plane<const D: usize> {
 }
 
 /// Nodes this close to the wall, in spacings, stand on it.
-const ON_THE_WALL: f64 = 1e-6;
+pub(super) const ON_THE_WALL: f64 = 1e-6;
 
 impl<const D: usize> Plane<D> {
+    /// Whether nodes behind it are images.
+    pub(super) fn mirrors(&self) -> bool {
+        !matches!(self.contact, Contact::Separate { .. })
+    }
+
+    /// Height of x above it.
+    pub(super) fn height(&self, x: &[f64; D]) -> f64 {
+        vector::dot(&self.normal, &vector::subtract(x, &self.point))
+    }
+
+    /// R u, of a velocity u relative to a wall that mirrors: −u where it holds, u − 2 (n·u) n where it lets slide.
+    pub(super) fn reflect_relative(&self, u: &[f64; D]) -> [f64; D] {
+        match self.contact {
+            Contact::Slip => vector::add_scaled(u, -2.0 * vector::dot(&self.normal, u), &self.normal),
+            _ => u.map(|c| -c),
+        }
+    }
+
+    /// V + R (v − V).
+    pub(super) fn reflect(&self, v: &[f64; D]) -> [f64; D] {
+        let relative = vector::subtract(v, &self.velocity);
+        vector::add(&self.velocity, &self.reflect_relative(&relative))
+    }
+
     pub(super) fn constrain<B: Basis<D>, N: GridNode<D>>(
         &self,
         basis: &B,
         motion: &GridMotion<D>,
+        folds: &Folds,
         (masses, gaps): (&mut [f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
         let close = ON_THE_WALL * basis.spacing();
-        let mirrored = !matches!(self.contact, Contact::Separate { .. });
-        let distance = |x: &[f64; D]| vector::dot(&self.normal, &vector::subtract(x, &self.point));
+        let distance = |x: &[f64; D]| self.height(x);
         let mut at = Vec::new();
         for (number, x) in motion.positions.iter().enumerate() {
             let height = distance(x);
-            if height > close {
+            let role = folds.role(number);
+            if height > close || role == Role::Image {
                 continue;
             }
-            if mirrored && height < -close {
+            if self.mirrors() && role == Role::Own && height < -close {
                 let image = vector::add_scaled(x, -2.0 * height, &self.normal);
                 if let Some(inner) = basis.node_number(&image) {
                     mirror(self, [number, inner as usize], masses, nodes);

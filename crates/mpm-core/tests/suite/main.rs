@@ -18,6 +18,7 @@ mod golden_counters;
 mod grid_oracle;
 mod moments;
 mod naive_step;
+mod narrow_rooms;
 mod optional_fields;
 mod product_grid;
 mod sparse_memory;

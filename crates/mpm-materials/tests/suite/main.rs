@@ -14,6 +14,7 @@ macro_rules! properties {
     };
 }
 
+mod across;
 mod common;
 mod conformance;
 mod fluid;

@@ -27,6 +27,14 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             .iter()
             .zip(&volume_ratios)
             .map(|(stress, ratio)| *stress * (1.0 / ratio));
+        let across = |(gradient, ratio): (&Matrix<D>, &f64)| {
+            let stress = self.body.material.kirchhoff_stress_across(gradient);
+            stress.map_or(0.0, |stress| stress / ratio)
+        };
+        let stresses_across = match D {
+            3 => Vec::new(),
+            _ => there.gradients.iter().zip(&volume_ratios).map(across).collect(),
+        };
         Snapshot {
             dimension: D,
             time: self.time(),
@@ -34,6 +42,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             positions: in_scene(&there.positions),
             velocities: there.velocities.as_flattened().to_vec(),
             stresses: cauchy.flat_map(|stress| stress.0.into_iter().flatten()).collect(),
+            stresses_across,
             deformation_gradients: there
                 .gradients
                 .iter()

@@ -119,6 +119,10 @@ impl<const D: usize> Law<D> for Laws<D> {
         self.of(state.law).kirchhoff_stress(F, &state.memory, velocity_gradient)
     }
 
+    fn kirchhoff_stress_across(&self, F: &Matrix<D>, state: &LawState) -> Option<f64> {
+        self.of(state.law).kirchhoff_stress_across(F, &state.memory)
+    }
+
     fn wave_speed(&self, F: &Matrix<D>, state: &LawState, reference_density: f64) -> f64 {
         self.of(state.law).wave_speed(F, &state.memory, reference_density)
     }

@@ -101,6 +101,7 @@ mod tests {
             positions: vec![0.5, 0.75],
             velocities: vec![0.0, 1.0],
             stresses: vec![1.0, 2.0],
+            stresses_across: Vec::new(),
             deformation_gradients: vec![1.0, 1.0],
             volume_ratios: vec![1.0, 1.0],
             masses: vec![0.5, 0.5],

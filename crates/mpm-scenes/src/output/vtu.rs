@@ -6,7 +6,7 @@ use crate::Snapshot;
 
 /// A `.vtu` file of a snapshot: one vertex per particle, positions padded with zeros to three coordinates.
 ///
-/// Arrays at the points: `displacement`, `velocity` (three components), `stress` (Cauchy, nine), `pressure` (−tr σ / D), `volume_ratio` (J), `mass`, `volume`
+/// Arrays at the points: `displacement`, `velocity` (three components), `stress` (Cauchy, nine; along axes that the dimension leaves out where the law knows it, else 0), `pressure` (−tr σ / D), `volume_ratio` (J), `mass`, `volume`
 /// (current, J V⁰), `body`, `material`, `particle` (number in the order of creation) and the internal variables of the laws. For the format see [`Appended`].
 pub fn vtu(snapshot: &Snapshot) -> Vec<u8> {
     let count = snapshot.len();
@@ -46,7 +46,9 @@ fn point_data(snapshot: &Snapshot, appended: &mut Appended) -> String {
         .collect();
     let mut text = appended.vectors("displacement", dimension, &displacements);
     text += &appended.vectors("velocity", dimension, &snapshot.velocities);
-    text += &appended.matrices("stress", dimension, &snapshot.stresses, 0.0);
+    text += &appended.matrices("stress", dimension, &snapshot.stresses, |particle| {
+        snapshot.stresses_across.get(particle).copied().unwrap_or(0.0)
+    });
     text += &appended.floats("pressure", 1, &pressures);
     text += &appended.floats("volume_ratio", 1, &snapshot.volume_ratios);
     text += &appended.floats("mass", 1, &snapshot.masses);

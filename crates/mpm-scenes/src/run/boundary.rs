@@ -53,6 +53,7 @@ pub(super) fn build<const D: usize>(
     scene: &Scene,
     background: &Background<D>,
 ) -> Result<(Boundaries<D>, MovingObstacles<D>), SceneFault> {
+    plane::check_alike(scene, Some(background.room()))?;
     let walls = scene
         .walls
         .iter()

@@ -1,6 +1,7 @@
 //! The energy budget of a run: what has become of the energy that it began with.
 
 use mpm_core::EnergyBudget;
+use mpm_tensor::vector;
 
 use super::energies::Energies;
 use super::motion::Motion;
@@ -9,11 +10,11 @@ use crate::Kinematics;
 /// What the columns of the budget follow from, beside the present energies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Budget {
-    /// Kinetic energy at t = 0, the affine part with it.
+    /// Kinetic energy at t = 0, the affine part with it, and what prescribed motions of particles have added.
     kinetic: f64,
-    /// Energy of the barrier at t = 0.
+    /// Energy of the barrier at t = 0, and what they have added to that.
     barrier: f64,
-    /// The work of prescribed motions of particles.
+    /// The work of prescribed motions: what particles gain of kinetic energy, height and nearness to a barrier when they are put where their motion has them.
     prescribed: f64,
     /// The work of all forces on particles that have no potential in the series.
     loads: f64,
@@ -52,7 +53,7 @@ impl Budget {
     /// The values of its columns.
     pub fn row<const D: usize>(&self, motion: &dyn Motion<D>, now: &Energies) -> [f64; COLUMNS.len()] {
         let nodes = motion.energy_budget().unwrap_or_default();
-        let transfer = self.kinetic + nodes.sum() + self.prescribed - (now.kinetic + now.affine);
+        let transfer = self.kinetic + nodes.sum() - (now.kinetic + now.affine);
         let barrier = motion.loads().barrier.as_ref();
         let contact = match barrier.filter(|barrier| barrier.implicit) {
             Some(_) => self.barrier - nodes.contact - now.barrier,
@@ -104,9 +105,17 @@ impl Budget {
         if kinematics.regions().is_empty() {
             return;
         }
-        let before = motion.particles().kinetic_energy();
+        let energies = |motion: &dyn Motion<D>| {
+            let (particles, loads) = (motion.particles(), motion.loads());
+            let heights = loads.gravity_energy(particles);
+            [particles.kinetic_energy(), loads.barrier_energy(particles), heights]
+        };
+        let before = energies(motion);
         motion.prescribe(kinematics, reference);
-        self.prescribed += motion.particles().kinetic_energy() - before;
+        let [kinetic, barrier, heights] = vector::subtract(&energies(motion), &before);
+        self.kinetic += kinetic;
+        self.barrier += barrier;
+        self.prescribed += kinetic + barrier + heights;
     }
 
     /// As a checkpoint keeps it.

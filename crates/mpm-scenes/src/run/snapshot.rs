@@ -29,6 +29,17 @@ pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Populatio
             laws.kirchhoff_stress(deformation, state, rate) * (1.0 / ratio)
         })
         .collect();
+    let across = |(deformation, state), ratio: &f64| {
+        let stress = laws.kirchhoff_stress_across(deformation, state);
+        stress.map_or(0.0, |stress| stress / ratio)
+    };
+    let stresses_across: Vec<f64> = match D {
+        3 => Vec::new(),
+        _ => pairs(motion)
+            .zip(&ratios)
+            .map(|(pair, ratio)| across(pair, ratio))
+            .collect(),
+    };
     let states = particles.in_creation_order(&particles.states);
     let variable = |name: &'static str| {
         let values: Vec<Option<f64>> = states.iter().map(|state| laws.internal_variable(state, name)).collect();
@@ -51,6 +62,7 @@ pub(super) fn snapshot<const D: usize>(motion: &dyn Motion<D>, start: &Populatio
         positions: flat(&particles.positions),
         velocities: flat(&particles.velocities),
         stresses: tensors(&stresses),
+        stresses_across: particles.in_creation_order(&stresses_across),
         deformation_gradients: tensors(&particles.deformation_gradients),
         volume_ratios: particles.in_creation_order(&ratios),
         masses: start.masses.clone(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mpm_materials::{
-    DruckerPrager, ElasticModuli, FixedCorotated, Hencky, IsothermalGas, KelvinVoigt, Law, LinearElastic, Memory,
-    NeoHookean, Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
+    DruckerPrager, ElasticModuli, FixedCorotated, FlowingGas, Hencky, IsothermalGas, KelvinVoigt, Law, LinearElastic,
+    Memory, NeoHookean, Numbered, ParameterError, Snow, SofteningHencky, TaitFluid,
 };
 use serde::Deserialize;
 
@@ -59,7 +59,7 @@ materials! {
     TaitFluid(fluid: FluidTable) => fluid.law()?;
     /// The isothermal gas P = κ ρ.
     IsothermalGas(gas: GasTable) => {
-        IsothermalGas::new(gas.pressure_per_density)?.with_reference_density(gas.density)?
+        FlowingGas(IsothermalGas::new(gas.pressure_per_density)?.with_reference_density(gas.density)?)
     };
 }
 

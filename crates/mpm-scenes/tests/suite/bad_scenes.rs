@@ -13,6 +13,18 @@ fn errors_name_the_file_the_field_and_the_value() {
 }
 
 #[test]
+fn walls_in_one_plane_may_say_the_same_and_those_in_two_what_they_like() {
+    let wall = |text: &str| BLOCK.replace("[[obstacles]]", &format!("[[walls]]\n{text}\n\n[[obstacles]]"));
+    let lower = "axis = \"y\"\nside = \"lower\"\ncondition = \"friction\"\nfriction = 0.3";
+    let upper = "axis = \"y\"\nside = \"upper\"\nposition = -0.5\ncondition = \"slip\"";
+    let above = "axis = \"y\"\nside = \"lower\"\nposition = -0.25\ncondition = \"slip\"";
+    for text in [lower, upper, above] {
+        let parsed = Scene::parse(&wall(text), Path::new("block.toml"));
+        assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
+    }
+}
+
+#[test]
 fn a_particle_on_a_wall_is_not_behind_it() {
     let fill = |position: f64| {
         let text = BLOCK.replace(

@@ -138,6 +138,52 @@ fn the_budget_of_a_swinging_bar_closes() {
     assert!(drift(&bar) < 1e-9 * start, "{} of {start}", drift(&bar));
 }
 
+/// A block of which particles are moved in a field of gravity that still grows, and beside a barrier: putting them in place is work.
+#[test]
+fn the_budget_of_particles_that_are_put_in_place_closes() {
+    for integration in ["explicit", "implicit"] {
+        let block = series(&format!(
+            r#"
+title = "lifted"
+dimension = 2
+gravity = [0.0, -9.81]
+gravity_ramp = 0.1
+domain = {{ lower = [0.0, -1.0], upper = [3.0, 2.0] }}
+grid = {{ spacing = 0.1 }}
+transfer = {{ kind = "apic" }}
+time = {{ end = 0.2, step = 1e-3 }}
+materials.rubber = {{ law = "neo-hookean", density = 1000.0, young_modulus = 1e5, poisson_ratio = 0.3 }}
+output = {{ interval = 0.2, series_interval = 0.01, energy_budget = true }}
+
+[barrier]
+shapes = [{{ kind = "half-space", point = [0.0, -0.05], normal = [0.0, 1.0] }}]
+stiffness = 1e6
+gap = 0.1
+integration = "{integration}"
+
+[[bodies]]
+name = "block"
+shape = {{ kind = "box", lower = [1.0, 0.0], upper = [2.0, 0.5] }}
+material = "rubber"
+
+[[kinematic]]
+region = {{ kind = "box", lower = [1.0, 0.0], upper = [1.2, 0.5] }}
+velocity = [0.1, 0.2]
+rotation = {{ centre = [1.1, 0.2], rate = [1.0] }}
+until = 0.1
+"#
+        ));
+        let work = block.column("boundary_work").expect("a budget");
+        let most = largest(&work);
+        assert!(most > 1.0, "{most}");
+        assert!(
+            drift(&block) < 1e-9 * most,
+            "{integration}: {} of {most}",
+            drift(&block)
+        );
+    }
+}
+
 /// A bar that is pulled and damped: the work of the load is what strain, motion and damping have.
 #[test]
 fn the_work_of_a_load_and_damping_are_in_the_budget() {

@@ -119,7 +119,7 @@ impl Frame {
             text += &appended.vectors("velocity", d, velocities);
         }
         if let Some(gradients) = &self.deformation_gradients {
-            text += &appended.matrices("deformation_gradient", d, gradients, 1.0);
+            text += &appended.matrices("deformation_gradient", d, gradients, |_| 1.0);
         }
         if let Some(weights) = &self.weights {
             text += &appended.floats("weight", 1, weights);

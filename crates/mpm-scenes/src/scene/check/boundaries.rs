@@ -16,6 +16,14 @@ impl Scene {
             check_friction(&field, wall.friction, wall.condition == WallCondition::Friction)?;
             check_motion::<D>(&field, wall.velocity.as_ref(), None)?;
         }
+        let room = match &self.domain {
+            Some(domain) => Some(Bounds {
+                lower: vector("domain.lower", &domain.lower)?,
+                upper: vector("domain.upper", &domain.upper)?,
+            }),
+            None => None,
+        };
+        plane::check_alike::<D>(self, room.as_ref())?;
         self.check_facets::<D>()?;
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             let field = |key: &str| format!("obstacles[{index}].{key}");
