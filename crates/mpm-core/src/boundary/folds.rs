@@ -36,6 +36,14 @@ pub(super) struct Folds {
 /// Reflections of a node at most.
 const MOST_REFLECTIONS: usize = 64;
 
+/// Parallel walls this many spacings apart have no images by both: far more than kernels reach.
+const WIDE: f64 = 16.0;
+
+/// Whether two walls are parallel and at least this far apart.
+fn apart<const D: usize>(one: &Plane<D>, other: &Plane<D>, distance: f64) -> bool {
+    vector::dot(&one.normal, &other.normal) < 1e-9 - 1.0 && one.height(&other.point) >= distance
+}
+
 /// Whether reflections at two walls do not commute, and the walls bound the same room.
 fn face_each_other<const D: usize>(one: &Plane<D>, other: &Plane<D>) -> bool {
     vector::dot(&one.normal, &other.normal) < -1e-9
@@ -57,7 +65,9 @@ impl Folds {
     ) {
         self.images.clear();
         self.roles.clear();
-        let faced = |wall: &Plane<D>| walls.iter().any(|other| face_each_other(wall, other));
+        let wide = WIDE * basis.spacing();
+        let faces = |wall: &Plane<D>, other: &Plane<D>| face_each_other(wall, other) && !apart(wall, other, wide);
+        let faced = |wall: &Plane<D>| walls.iter().any(|other| faces(wall, other));
         if !walls.iter().any(|wall| wall.mirrors() && faced(wall)) {
             return;
         }
