@@ -40,7 +40,7 @@ impl Sum for NodeVolume {
     }
 }
 
-/// How fast J is drawn to its average by shear: what nodes do not see of it falls as e^{−100 γ}, γ = ∫ ‖dev d‖ dt. With 10 a softening slope on grids throws particles, with 50 it does not.
+/// How fast J is drawn to its average by shear: what nodes do not see of it falls as e^{−100 γ}, γ = ∫ ‖dev d‖ dt. With 10 a slope of softening clay throws particles on grids.
 const PER_SHEAR: f64 = 100.0;
 
 /// The deformation gradients before the particles deform, where changes are averaged.
