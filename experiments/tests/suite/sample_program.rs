@@ -64,8 +64,13 @@ fn a_density_with_an_edge_has_diagnostics() {
     }
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("exponential.py"), EXPONENTIAL).unwrap();
-    let flags = "--seed 1 --diagnostics d.json";
-    let output = sample_with(flags, directory.path(), "python3 exponential.py", "2");
+    let line = "sample --target program --dim 1 --particles 4000 --seed 1 --out x.csv --diagnostics d.json --program";
+    let arguments = line.split_whitespace().chain(["python3 exponential.py"]);
+    let output = command()
+        .current_dir(directory.path())
+        .args(arguments)
+        .output()
+        .unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let found = std::fs::read_to_string(directory.path().join("d.json")).unwrap();
     let found: serde_json::Value = serde_json::from_str(&found).unwrap();
