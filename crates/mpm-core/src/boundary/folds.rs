@@ -5,19 +5,9 @@ use std::ops::Range;
 use mpm_tensor::vector;
 
 use super::plane::ON_THE_WALL;
+use super::role::{Role, Roles};
 use super::{GridMotion, Plane};
 use crate::{Basis, GridNode};
-
-/// What walls do with a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
-    /// What they do with nodes.
-    Own,
-    /// It is a repeated image of a node that is not active: it has no mirror image, and the walls hold it.
-    Held,
-    /// Nothing: it moves as its images do.
-    Image,
-}
 
 /// Nodes that repeated reflection at walls maps to one, their source. With the reflections T_k u = V_k + R_k (u − V_k) at the walls on the way, first that at which the node itself is mirrored, the velocity of a
 /// node is T v = T_1 T_2 … v, v that of the source. Of all such fields the source gets the one nearest to the velocities that the nodes would have without, by Σ m |·|²: v = Σ m T⁻¹ v_i / Σ m, T⁻¹ = … T_2 T_1. Then the walls act on the
@@ -30,7 +20,8 @@ pub(super) struct Folds {
     /// Source and node, and the places of the walls on the way in `walls`.
     images: Vec<(usize, usize, Range<usize>)>,
     walls: Vec<usize>,
-    roles: Vec<Role>,
+    /// What walls do with the nodes.
+    pub roles: Roles,
 }
 
 /// Reflections of a node at most.
@@ -50,11 +41,6 @@ fn face_each_other<const D: usize>(one: &Plane<D>, other: &Plane<D>) -> bool {
 }
 
 impl Folds {
-    /// What walls do with this node.
-    pub fn role(&self, node: usize) -> Role {
-        self.roles.get(node).copied().unwrap_or(Role::Own)
-    }
-
     /// Look for sources and images, and give the sources what all have together.
     pub fn fold<const D: usize, B: Basis<D>, N: GridNode<D>>(
         &mut self,
@@ -64,7 +50,7 @@ impl Folds {
         (masses, nodes): (&mut [f64], &mut [N]),
     ) {
         self.images.clear();
-        self.roles.clear();
+        self.roles.0.clear();
         let wide = WIDE * basis.spacing();
         let faces = |wall: &Plane<D>, other: &Plane<D>| face_each_other(wall, other) && !apart(wall, other, wide);
         let faced = |wall: &Plane<D>| walls.iter().any(|other| faces(wall, other));
@@ -106,7 +92,7 @@ impl Folds {
     fn find<const D: usize, B: Basis<D>>(&mut self, walls: &[Plane<D>], basis: &B, positions: &[[f64; D]]) {
         let close = ON_THE_WALL * basis.spacing();
         self.walls.clear();
-        self.roles.resize(positions.len(), Role::Own);
+        self.roles.0.resize(positions.len(), Role::Own);
         for (node, start) in positions.iter().enumerate() {
             let (begin, mut x) = (self.walls.len(), *start);
             let behind = |x: &[f64; D]| walls.iter().position(|wall| wall.mirrors() && wall.height(x) < -close);
@@ -124,7 +110,7 @@ impl Folds {
                 Some(source) => self.images.push((source as usize, node, way)),
                 None => {
                     if any_face_each_other(walls, &self.walls[way]) {
-                        self.roles[node] = Role::Held;
+                        self.roles.0[node] = Role::Held;
                     }
                     self.walls.truncate(begin);
                 }
@@ -159,7 +145,7 @@ impl Folds {
             touched.extend((0..walls.len()).filter(at));
             if any_face_each_other(walls, &touched) {
                 for (_, node, _) in sources {
-                    self.roles[*node] = Role::Image;
+                    self.roles.0[*node] = Role::Image;
                 }
                 self.images.extend_from_slice(sources);
             }

@@ -9,6 +9,7 @@ mod node_forces;
 mod obstacle;
 mod plane;
 mod prescribed;
+mod role;
 mod signed_distance;
 mod surface;
 
@@ -153,7 +154,7 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             .fold(&self.walls, basis, motion, (&mut self.masses, &mut *nodes));
         for wall in &self.walls {
             let scratch = (&mut *self.masses, &mut self.gaps);
-            wall.constrain(basis, motion, &self.folds, scratch, nodes);
+            wall.constrain(basis, motion, &self.folds.roles, scratch, nodes);
         }
         self.folds.unfold(&self.walls, nodes);
         for surface in &mut self.surfaces {

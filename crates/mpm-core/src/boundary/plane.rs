@@ -1,7 +1,7 @@
 use mpm_tensor::vector;
 
-use super::folds::{Folds, Role};
 use super::mirror::mirror;
+use super::role::{Role, Roles};
 use super::surface::Surface;
 use super::{Contact, GridMotion};
 use crate::{Basis, GridNode};
@@ -58,7 +58,7 @@ impl<const D: usize> Plane<D> {
         &self,
         basis: &B,
         motion: &GridMotion<D>,
-        folds: &Folds,
+        roles: &Roles,
         (masses, gaps): (&mut [f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
@@ -67,7 +67,7 @@ impl<const D: usize> Plane<D> {
         let mut at = Vec::new();
         for (number, x) in motion.positions.iter().enumerate() {
             let height = distance(x);
-            let role = folds.role(number);
+            let role = roles.of(number);
             if height > close || role == Role::Image {
                 continue;
             }
