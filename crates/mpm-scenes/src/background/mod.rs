@@ -8,9 +8,8 @@ use std::collections::BTreeMap;
 
 use mpm_mesh::{NamedMesh, SimplexMesh};
 
-use crate::scene::{Discretisation, Scene};
+use crate::scene::{Discretisation, DomainTable, Scene};
 use crate::shape::Bounds;
-use crate::values::vector;
 use crate::{SceneFault, rotation};
 
 pub(crate) use generate::of_shape;
@@ -48,13 +47,7 @@ impl<const D: usize> Background<D> {
     /// # Errors
     /// [`SceneFault::Value`] for a mesh that cannot be made or read, and for what [`Scene::read`] refuses.
     pub fn build(scene: &Scene) -> Result<Self, SceneFault> {
-        let domain = match &scene.domain {
-            None => None,
-            Some(table) => Some(Bounds {
-                lower: vector("domain.lower", &table.lower)?,
-                upper: vector("domain.upper", &table.upper)?,
-            }),
-        };
+        let domain = scene.domain.as_ref().map(DomainTable::room).transpose()?;
         let table = match (scene.discretisation()?, domain) {
             (Discretisation::Mesh(table), _) => table,
             (Discretisation::Grid(table), Some(room)) => {

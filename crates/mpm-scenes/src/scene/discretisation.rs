@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::MeshTable;
+use crate::SceneFault;
+use crate::shape::Bounds;
+use crate::values::vector;
 
 /// What a scene is computed on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +24,19 @@ pub struct DomainTable {
     pub lower: Vec<f64>,
     /// Its highest corner.
     pub upper: Vec<f64>,
+}
+
+impl DomainTable {
+    /// The box.
+    ///
+    /// # Errors
+    /// [`SceneFault::Value`] for corners without a finite number for each axis.
+    pub(crate) fn room<const D: usize>(&self) -> Result<Bounds<D>, SceneFault> {
+        Ok(Bounds {
+            lower: vector("domain.lower", &self.lower)?,
+            upper: vector("domain.upper", &self.upper)?,
+        })
+    }
 }
 
 /// `[grid]`: the background grid, with a node at `domain.lower`.

@@ -1,6 +1,6 @@
 //! Walls, obstacles, held regions and kinematic particles.
 
-use crate::scene::{Contact, Scene, WallCondition};
+use crate::scene::{Contact, DomainTable, Scene, WallCondition};
 use crate::shape::Bounds;
 use crate::values::{check, not_negative, positive, vector};
 use crate::{SceneFault, kinematics, plane, shape};
@@ -16,13 +16,7 @@ impl Scene {
             check_friction(&field, wall.friction, wall.condition == WallCondition::Friction)?;
             check_motion::<D>(&field, wall.velocity.as_ref(), None)?;
         }
-        let room = match &self.domain {
-            Some(domain) => Some(Bounds {
-                lower: vector("domain.lower", &domain.lower)?,
-                upper: vector("domain.upper", &domain.upper)?,
-            }),
-            None => None,
-        };
+        let room = self.domain.as_ref().map(DomainTable::room).transpose()?;
         plane::check_alike::<D>(self, room.as_ref())?;
         self.check_facets::<D>()?;
         for (index, obstacle) in self.obstacles.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! The background: a grid or a mesh.
 
 use crate::scene::{Discretisation, GradientName, KernelName, MeshShapeTable, MeshTable, RotationTable, Scene};
+use crate::shape::Bounds;
 use crate::values::{finite, not_negative, positive, vector, within};
 use crate::{SceneFault, rotation};
 
@@ -24,8 +25,7 @@ impl Scene {
                 return Err(SceneFault::missing("domain", "given with a [grid]"));
             }
             (_, Some(domain)) => {
-                let lower = vector::<D>("domain.lower", &domain.lower)?;
-                let upper = vector::<D>("domain.upper", &domain.upper)?;
+                let Bounds { lower, upper } = domain.room::<D>()?;
                 let (above, list) = ((0..D).all(|a| lower[a] < upper[a]), &domain.upper);
                 within("domain.upper", list, above, &format!("above domain.lower = {lower:?}"))?;
             }
