@@ -34,7 +34,7 @@ pub use basis::{Basis, Member, NO_NODE, UniformBasis};
 pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
     Boundaries, Boundary, Contact, Extents, GridMotion, HalfSpace, HeldNode, HeldSurface, ImageNode, NoBoundary,
-    NodeForces, Obstacle, Plane, PrescribedVelocity, SignedDistance,
+    NodeForces, ON_A_SURFACE, Obstacle, Plane, PrescribedVelocity, SignedDistance,
 };
 pub use cell_sort::CellSort;
 pub use contact::{ContactPoint, ContactPotential};

@@ -39,10 +39,10 @@ impl<const D: usize> HeldRegion<D> {
 }
 
 impl<const D: usize> PrescribedVelocity<D> for HeldRegion<D> {
-    /// None outside, and none in a step that ends after `until`: kinematic particles are free at its end, too.
-    fn velocity(&self, x: &[f64; D], time: f64, time_step: f64) -> Option<[f64; D]> {
+    /// None outside and farther than `close`, and none in a step that ends after `until`: kinematic particles are free at its end, too.
+    fn velocity(&self, x: &[f64; D], close: f64, time: f64, time_step: f64) -> Option<[f64; D]> {
         let inside = kinematics::prescribes(self.until, time + time_step)
-            && self.shape.distance(&self.motion.reference(x, time)) <= 0.0;
+            && self.shape.distance(&self.motion.reference(x, time)) <= close;
         inside.then(|| self.motion.mean_velocity(x, time, time_step))
     }
 }

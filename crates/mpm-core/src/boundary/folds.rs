@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use mpm_tensor::vector;
 
-use super::plane::ON_THE_WALL;
 use super::role::{Role, Roles};
+use super::surface::ON_A_SURFACE;
 use super::{GridMotion, Plane};
 use crate::{Basis, GridNode};
 
@@ -90,7 +90,7 @@ impl Folds {
 
     /// All nodes behind walls that mirror, and where repeated reflection takes them.
     fn find<const D: usize, B: Basis<D>>(&mut self, walls: &[Plane<D>], basis: &B, positions: &[[f64; D]]) {
-        let close = ON_THE_WALL * basis.spacing();
+        let close = ON_A_SURFACE * basis.spacing();
         self.walls.clear();
         self.roles.0.resize(positions.len(), Role::Own);
         for (node, start) in positions.iter().enumerate() {
@@ -126,7 +126,7 @@ impl Folds {
         positions: &[[f64; D]],
         masses: &[f64],
     ) {
-        let close = ON_THE_WALL * basis.spacing();
+        let close = ON_A_SURFACE * basis.spacing();
         let mut images = std::mem::take(&mut self.images);
         images.sort_by_key(|(source, node, _)| (*source, *node));
         let mut touched = Vec::new();

@@ -20,7 +20,7 @@ pub use obstacle::Obstacle;
 pub use plane::Plane;
 pub use prescribed::PrescribedVelocity;
 pub use signed_distance::{HalfSpace, SignedDistance};
-pub use surface::Extents;
+pub use surface::{Extents, ON_A_SURFACE};
 
 use self::folds::Folds;
 use crate::{Basis, GridNode, MpmError};
@@ -168,7 +168,7 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             obstacle.constrain(basis, motion, &mut self.gaps, nodes);
         }
         for field in &self.prescribed {
-            prescribed::prescribe(&**field, motion, nodes);
+            prescribed::prescribe(&**field, basis, motion, nodes);
         }
     }
 }

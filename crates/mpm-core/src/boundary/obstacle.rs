@@ -1,8 +1,8 @@
-use super::surface::Surface;
+use super::surface::{ON_A_SURFACE, Surface};
 use super::{Contact, GridMotion, SignedDistance};
 use crate::{Basis, GridNode};
 
-/// A rigid body that moves with a given velocity or rests; it acts on the nodes inside it.
+/// A rigid body that moves with a given velocity or rests; it acts on the nodes inside it and on its surface.
 pub struct Obstacle<const D: usize> {
     /// Its surface.
     pub shape: Box<dyn SignedDistance<D>>,
@@ -20,8 +20,9 @@ impl<const D: usize> Obstacle<D> {
         gaps: &mut Vec<f64>,
         nodes: &mut [N],
     ) {
+        let close = ON_A_SURFACE * basis.spacing();
         let numbered = motion.positions.iter().enumerate();
-        let inside = numbered.filter(|(_, x)| self.shape.distance(x) <= 0.0);
+        let inside = numbered.filter(|(_, x)| self.shape.distance(x) <= close);
         let inside: Vec<usize> = inside.map(|(number, _)| number).collect();
         let surface = Surface {
             contact: self.contact,

@@ -2,7 +2,7 @@ use mpm_tensor::vector;
 
 use super::mirror::mirror;
 use super::role::{Role, Roles};
-use super::surface::Surface;
+use super::surface::{ON_A_SURFACE, Surface};
 use super::{Contact, GridMotion};
 use crate::{Basis, GridNode};
 
@@ -25,9 +25,6 @@ pub struct Plane<const D: usize> {
     /// Velocity of its surface. The wall itself stays where it is.
     pub velocity: [f64; D],
 }
-
-/// Nodes this close to the wall, in spacings, stand on it.
-pub(super) const ON_THE_WALL: f64 = 1e-6;
 
 impl<const D: usize> Plane<D> {
     /// Whether nodes behind it are images.
@@ -62,7 +59,7 @@ impl<const D: usize> Plane<D> {
         (masses, gaps): (&mut [f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
-        let close = ON_THE_WALL * basis.spacing();
+        let close = ON_A_SURFACE * basis.spacing();
         let distance = |x: &[f64; D]| self.height(x);
         let mut at = Vec::new();
         for (number, x) in motion.positions.iter().enumerate() {

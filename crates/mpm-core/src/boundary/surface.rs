@@ -5,6 +5,9 @@ use mpm_tensor::{Matrix, vector};
 use super::{Contact, GridMotion};
 use crate::{Basis, GridNode};
 
+/// Nodes this close to a wall, to the surface of an obstacle or to a region whose velocity is given, in spacings, are on it: rounding is not to decide.
+pub const ON_A_SURFACE: f64 = 1e-6;
+
 /// Places and sizes of the particles, in the present order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extents<'a, const D: usize> {

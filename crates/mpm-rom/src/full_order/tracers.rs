@@ -30,8 +30,9 @@ struct Held<const D: usize> {
 }
 
 impl<const D: usize> PrescribedVelocity<D> for Held<D> {
-    fn velocity(&self, x: &[f64; D], time: f64, time_step: f64) -> Option<[f64; D]> {
-        self.region.velocity(&vector::add(x, &self.centroid), time, time_step)
+    fn velocity(&self, x: &[f64; D], close: f64, time: f64, time_step: f64) -> Option<[f64; D]> {
+        let x = vector::add(x, &self.centroid);
+        self.region.velocity(&x, close, time, time_step)
     }
 }
 

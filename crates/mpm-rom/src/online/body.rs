@@ -1,6 +1,6 @@
 //! The body of a scene as the reduced dynamics see it.
 
-use mpm_core::{PrescribedVelocity, VolumeAveraging};
+use mpm_core::{ON_A_SURFACE, PrescribedVelocity, VolumeAveraging};
 use mpm_kernels::UniformGrid;
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
 use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, TransferKind};
@@ -106,10 +106,9 @@ impl<const D: usize> ReducedBody<D> {
     /// The velocity of a node at x in the step from `time` on; `None` where it is not prescribed. Where regions overlap, the last one's.
     pub fn held_velocity(&self, x: &[f64; D], time: f64) -> Option<[f64; D]> {
         let x = vector::add(x, &self.centroid);
-        let regions = self.held.iter().rev();
-        regions
-            .clone()
-            .find_map(|region| region.velocity(&x, time, self.time_step))
+        let close = ON_A_SURFACE * self.grid.spacing();
+        let mut regions = self.held.iter().rev();
+        regions.find_map(|region| region.velocity(&x, close, time, self.time_step))
     }
 
     /// The distance of X from the surface of the body at rest, negative inside; at most that, of combined shapes.

@@ -2,6 +2,7 @@
 
 mod reach;
 
+use mpm_core::ON_A_SURFACE;
 use mpm_tensor::vector as algebra;
 
 use crate::background::Background;
@@ -14,9 +15,6 @@ use crate::values::{vector, within};
 use crate::{HeldRegion, SceneFault};
 
 use reach::Nodes;
-
-/// Lengths this short, in units of h, are rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// Checks walls, obstacles, held regions and the barrier of a scene, whose bodies have been filled and whose forces have been made.
 ///
@@ -42,7 +40,7 @@ pub(crate) fn check<const D: usize>(
             let time = region.until.min(scene.time.end);
             nodes.meet(&swept(&*region.shape, &motion.velocity, time))
         } else {
-            nodes.come_as_near(&*region.shape, ROUNDING * nodes.spacing())
+            nodes.come_as_near(&*region.shape, ON_A_SURFACE * nodes.spacing())
         };
         within(&field, table, reached, &held_somewhere(&nodes))?;
     }
@@ -89,7 +87,7 @@ fn check_walls<const D: usize>(scene: &Scene, background: &Background<D>, nodes:
         let room = nodes.room();
         let corner = std::array::from_fn(|a| if normal[a] > 0.0 { room.lower[a] } else { room.upper[a] });
         let behind = algebra::dot(&algebra::subtract(&corner, &point), &normal);
-        let reached = behind <= ROUNDING * nodes.spacing();
+        let reached = behind <= ON_A_SURFACE * nodes.spacing();
         let expected = format!("in reach of {}: beyond, the wall acts on nothing", nodes.described());
         match table.axis.and_then(|axis| point.get(axis.index())) {
             Some(position) => within(&format!("walls[{index}].position"), *position, reached, &expected).map(drop)?,
@@ -108,13 +106,13 @@ fn check_obstacle<const D: usize>(
 ) -> Result<(), SceneFault> {
     let field = format!("obstacles[{index}].shape");
     let shape = shape::build::<D>(&field, &table.shape)?;
-    outside(scene, &field, &*shape, ROUNDING * nodes.spacing(), particles)?;
+    outside(scene, &field, &*shape, ON_A_SURFACE * nodes.spacing(), particles)?;
     let velocity = match &table.velocity {
         Some(list) if table.moves => vector(&format!("obstacles[{index}].velocity"), list)?,
         _ => [0.0; D],
     };
     let reached = if velocity == [0.0; D] {
-        nodes.come_as_near(&*shape, ROUNDING * nodes.spacing())
+        nodes.come_as_near(&*shape, ON_A_SURFACE * nodes.spacing())
     } else {
         nodes.meet(&swept(&*shape, &velocity, scene.time.end))
     };

@@ -85,3 +85,51 @@ fn a_block_that_swings_stays_on_its_floor() {
     // ρ g L² / 3 E below where it began.
     assert!((0.5 - mean - 1.0 / 300.0).abs() < 5e-4, "{mean}");
 }
+
+const HUNG: &str = r#"
+dimension = 1
+title = "a bar that hangs from what begins at a node"
+gravity = [1.0]
+grid = { spacing = 0.1 }
+domain = { lower = [LOWER], upper = [3.0] }
+time = { end = 4.0, damping = 5.0 }
+materials.rubber = { law = "linear-elastic", density = 1.0, young_modulus = 100.0, poisson_ratio = 0.0 }
+output = { interval = 4.0, series_interval = 4.0 }
+
+[[bodies]]
+name = "bar"
+material = "rubber"
+shape = { kind = "box", lower = [BEGIN], upper = [END] }
+
+[[probes]]
+name = "tip"
+at = [END]
+
+"#;
+
+/// Whether a node on the face of an obstacle or of a held region belongs to it is not for rounding to say: u(L) = ρ g L² / (2 E) wherever the face is.
+#[test]
+fn nodes_on_a_face_belong_to_it() {
+    let stick = "[[obstacles]]\nshape = { kind = \"box\", lower = [-2.0], upper = [FACE] }\ncontact = \"stick\"\n";
+    let held = "[[held]]\nshape = { kind = \"box\", lower = [-2.0], upper = [FACE] }\n";
+    for (what, inside) in [(stick, 0.0), (held, 0.1)] {
+        for (lower, face) in [-1.0, -0.5, 0.0]
+            .into_iter()
+            .flat_map(|lower| (1..10).map(move |k| (lower, k)))
+        {
+            let face = f64::from(face) / 10.0;
+            let text = [
+                ("LOWER", lower),
+                ("BEGIN", face - inside),
+                ("FACE", face),
+                ("END", face + 1.0),
+            ]
+            .into_iter()
+            .fold(format!("{HUNG}{what}"), |text, (name, value)| {
+                text.replace(name, &format!("{value:?}"))
+            });
+            let tip = series(&text).column("tip_displacement_x").expect("a probe")[1];
+            assert!((tip / 0.005 - 1.0).abs() < 0.1, "{what}, {lower}, {face}: {tip}");
+        }
+    }
+}
