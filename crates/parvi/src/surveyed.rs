@@ -93,6 +93,7 @@ fn condensed<const D: usize>(
         ..options.clone()
     };
     let options = if doubt.is_some() { &still } else { options };
+    let doubt = doubt.or(tails.spreadless.map(|[rays, of]| Doubt::Spreadless { rays, of }));
     let polish = Polish::new(options, task.target, &pool, task.run)?;
     let Polished {
         best,

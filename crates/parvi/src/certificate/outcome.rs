@@ -67,6 +67,16 @@ pub enum Doubt {
         /// Rays that were looked along.
         of: usize,
     },
+    /// Along rays through points of the pool r^(D + 2) p does not fall off, r the distance: variances are infinite, or mass much farther away than particles decides them.
+    #[error(
+        "standard deviations may not exist: along {rays} of {of} rays the square of the distance outweighs the fall of p, up to a thousand times the distance of particles"
+    )]
+    Spreadless {
+        /// Rays along which it does not.
+        rays: usize,
+        /// Rays that were looked along.
+        of: usize,
+    },
     /// The residual is above that of independent draws.
     #[error("the residual is {ratio:.2} of that of independent draws")]
     Residual {

@@ -87,6 +87,26 @@ fn what_does_not_fall_off_is_said_to_be_improper() {
     assert!(matches!(doubt(&alone.expect("particles")), Some(Doubt::Endless { .. })));
 }
 
+/// A Cauchy law has no standard deviation that particles could have; a t law with ν = 3 does, and a normal law whose log density has a floor.
+#[test]
+fn standard_deviations_that_do_not_exist_are_not_vouched_for() {
+    let square = |x: &[f64; 2]| x[0] * x[0] + x[1] * x[1];
+    let heavy = |x: &[f64; 2]| -1.5 * square(x).ln_1p();
+    let products = |x: &[f64; 2]| -(x[0] * x[0]).ln_1p() - (x[1] * x[1]).ln_1p();
+    let sound = |x: &[f64; 2]| -2.5 * (square(x) / 3.0).ln_1p();
+    let floored = |x: &[f64; 2]| (-0.5 * square(x)).max(-700.0);
+    let laws: [(LogDensity<'_>, bool); 4] = [(&heavy, true), (&products, true), (&sound, false), (&floored, false)];
+    for (law, (log_density, expected)) in laws.into_iter().enumerate() {
+        let samples = Counted::new(log_density).sampled(&MpmOptions::default(), 1000);
+        let said = doubt(&samples);
+        assert_eq!(
+            matches!(said, Some(Doubt::Spreadless { .. })),
+            expected,
+            "{law}: {said:?}"
+        );
+    }
+}
+
 /// N(0, I), or a slope without end, with a score given by a function.
 struct Scored<S>(bool, S);
 
