@@ -130,10 +130,10 @@ fn a_target_that_answers_nan_does_not_end_a_study() {
     let head = STUDY.split("targets").next().unwrap();
     std::fs::write(root.path().join("study.toml"), format!("{head}{of}")).unwrap();
     let output = succeeds(root.path(), "run study.toml --out out");
-    assert_eq!(value(&output, "diverged").as_deref(), Some("2"));
+    assert_eq!(value(&output, "no_reference").as_deref(), Some("2"));
     let rows = crate::support::rows(root.path());
     let ends: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
-    assert_eq!(ends, ["diverged", "diverged", "finished", "finished"]);
+    assert_eq!(ends, ["no-reference", "no-reference", "finished", "finished"]);
     assert!(rows[0]["note"].contains("NaN"), "{rows:?}");
 }
 
