@@ -163,6 +163,11 @@ fn options_of_a_body_that_has_not_moved_are_named() {
         notice.starts_with("--steps: without effect: none is moved with --rounds 0"),
         "{notice}"
     );
+    for (options, why) in [("--weighted on", "weighted particles"), ("--rounds 0", "none is moved")] {
+        let (_, notice) = said(&format!("{options} --moment-correction affine"));
+        let expected = format!("--moment-correction: without effect: {why}");
+        assert!(notice.starts_with(&expected), "{notice}");
+    }
     let moving = |options: &str| said(&format!("--survey off --steps 5 {options}")).1;
     let notice = moving("--shifts off --spacing-range 2 --rotation on --settling-shifts on");
     let expected = "--rotation, --spacing-range, --settling-shifts: without effect: the basis keeps still";

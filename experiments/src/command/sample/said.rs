@@ -18,6 +18,7 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
         return;
     }
     let has_rounds = arguments.options.rounds.is_none_or(|rounds| rounds.get() > 0);
+    let is_weighted = arguments.options.weighted == Some(Switch::On);
     let why = match arguments.options.weighted {
         Some(Switch::On) => "weighted particles are not moved",
         _ if !has_rounds => "none is moved with --rounds 0",
@@ -25,7 +26,11 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
             "the weighed evaluations served all particles, and none was moved; --steps or --rounds lets the material try"
         }
     };
-    let is_idle = |name: &str| is_among(OF_MOVES, name) || name == "steps" && !has_rounds;
+    let is_idle = |name: &str| match name {
+        "steps" | "moment-correction" => is_weighted || !has_rounds,
+        "rounds" => is_weighted && has_rounds,
+        name => is_among(OF_MOVES, name),
+    };
     notice_idle(arguments, is_idle, why);
 }
 
