@@ -57,6 +57,18 @@ pub enum Doubt {
         /// Points that were looked at.
         of: usize,
     },
+    /// The log density is not a function of the point, but noise, or depends on something else.
+    #[error(
+        "log p is not a function of the point: evaluated once more it differs at {points} of {of} points, by up to {largest:.3}"
+    )]
+    AnotherValue {
+        /// Points at which it differs by more than rounding explains.
+        points: usize,
+        /// Points at which it was evaluated once more.
+        of: usize,
+        /// The largest difference, infinite where it is no number any more.
+        largest: f64,
+    },
     /// Along rays through points of the pool r^D p does not fall off, r the distance: the density may be improper.
     #[error(
         "log p does not fall off along {rays} of {of} rays, up to a thousand times the distance of particles: its mass lies farther away, or it is improper, without a finite integral"
