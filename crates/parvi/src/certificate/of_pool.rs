@@ -49,6 +49,7 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEs
         let in_units = |of: Estimate, unit: f64| Estimate {
             value: of.value * unit,
             standard_error: of.standard_error * unit,
+            ..of
         };
         let mean = in_units(pool.expectation(|x| x[a] / unit), unit);
         let square = in_units(pool.expectation(|x| ((x[a] - mean.value) / unit).powi(2)), unit * unit);
