@@ -64,6 +64,18 @@ pub enum TargetError {
         /// The pivot met there.
         value: f64,
     },
+    /// The curvature of a model's posterior is zero in the direction of a column of its data, to rounding.
+    #[error("{field} is not positive definite (pivot {value:e} of column '{column}' of {file})")]
+    Undetermined {
+        /// The Hessian.
+        field: String,
+        /// The column's name.
+        column: String,
+        /// Where the data come from.
+        file: String,
+        /// The pivot met there.
+        value: f64,
+    },
 
     /// No target has this name.
     #[error("unknown target '{name}': known are {known}")]

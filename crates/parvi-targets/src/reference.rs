@@ -109,8 +109,15 @@ impl<const D: usize> ImportanceSample<D> {
             frame = Frame::new(moments.mean, moments.covariance).unwrap_or(frame);
         }
         let seeds: Vec<u64> = (0..options.scramblings).map(|_| seeds.random()).collect();
-        let draws = weighed(target, &frame, options, &seeds, per_scrambling)?;
-        Ok(Self { draws, per_scrambling })
+        let draws = weighed(target, &frame, options, &seeds, per_scrambling);
+        // What a target has said that failed meanwhile is nothing.
+        match target.fault() {
+            Some(fault) => Err(fault),
+            None => Ok(Self {
+                draws: draws?,
+                per_scrambling,
+            }),
+        }
     }
 
     /// Mean, covariance and their standard errors over the scramblings.

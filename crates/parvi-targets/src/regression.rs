@@ -2,13 +2,16 @@
 
 use mpm_tensor::Matrix;
 
-use crate::error::positive;
+use crate::error::{positive, within};
 use crate::identifiability::{check_independence, check_overlap};
 use crate::posterior::Posterior;
 use crate::{
     CatalogueTarget, Curvature, Frame, Laplace, Link, Logarithm, Logit, Probit, RegressionTable, Response, Target,
     TargetError,
 };
+
+/// The prior standard deviations s for which 1/s² is a normal number, and a flat prior's.
+const ALLOWED: &str = "a number from 7.46e-155 to 6.70e153, or inf";
 
 /// The posterior of the coefficients β ∈ ℝᴰ of a regression with predictors x_iᵀβ and the prior β_k ~ N(0, s_k²).
 ///
@@ -42,7 +45,7 @@ impl<L: Link, const D: usize> Regression<L, D> {
     ///
     /// # Errors
     /// [`TargetError::Length`] unless D is the data's dimension; [`TargetError::OutOfRange`] or
-    /// [`TargetError::NotFinite`] unless s_k > 0; for flat priors [`TargetError::DataCollinear`] and
+    /// [`TargetError::NotFinite`] unless s_k > 0 and 1/s_k² is a normal number; for flat priors [`TargetError::DataCollinear`] and
     /// [`TargetError::DataSeparated`] where the posterior would be improper; the errors of [`Laplace::find`].
     pub fn new(
         name: &str,
@@ -55,7 +58,7 @@ impl<L: Link, const D: usize> Regression<L, D> {
             if s != f64::INFINITY {
                 let field = format!("the prior standard deviation of '{}'", data.names()[k]);
                 precision[k] = positive(&field, s)?.powi(-2);
-                crate::error::finite(&format!("the inverse square of {field}"), precision[k])?;
+                within(&field, s, precision[k].is_normal(), ALLOWED)?;
             }
         }
         let posterior = posterior.with_priors(precision);
@@ -66,7 +69,7 @@ impl<L: Link, const D: usize> Regression<L, D> {
             let canonical = Posterior::<<L::Response as Response>::Canonical, D>::new(&data)?;
             check_overlap(&data, &canonical.with_priors(precision))?;
         }
-        let laplace = Laplace::find(name, &posterior, [0.0; D])?;
+        let laplace = Laplace::find(name, &posterior, [0.0; D]).map_err(|error| named(error, &data))?;
         Ok(Self {
             name: name.to_owned(),
             data,
@@ -135,5 +138,18 @@ impl<L: Link, const D: usize> CatalogueTarget<D> for Regression<L, D> {
     /// The mode ± six standard deviations of the Laplace approximation: posteriors of little data are skewed.
     fn domain(&self) -> [[f64; 2]; D] {
         crate::gaussian::box_of_standard_deviations(self.laplace.mode(), &self.laplace.covariance(), 6.0)
+    }
+}
+
+/// An error about an axis, with the name of its column.
+fn named<R: Response>(error: TargetError, data: &RegressionTable<R>) -> TargetError {
+    match error {
+        TargetError::NotPositiveDefinite { field, axis, value } => TargetError::Undetermined {
+            field,
+            column: data.names().get(axis).cloned().unwrap_or_default(),
+            file: data.source().to_owned(),
+            value,
+        },
+        error => error,
     }
 }

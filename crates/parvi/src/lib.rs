@@ -28,6 +28,7 @@ mod on_mesh;
 mod paper;
 mod point_set_error;
 mod polish;
+mod repetition;
 mod rotation;
 mod run;
 mod score_check;

@@ -12,6 +12,7 @@ use rand::RngExt;
 use crate::certificate::{Certificate, Doubt};
 use crate::checkpoint::Journal;
 use crate::polish::{Polish, Polished};
+use crate::repetition::Repetition;
 use crate::score_check::ScoreCheck;
 use crate::start::Stream;
 use crate::tails::Tails;
@@ -85,8 +86,10 @@ fn condensed<const D: usize>(
     tails: Tails,
 ) -> Result<Samples<D>, SampleError> {
     let check = ScoreCheck::of(task.target, &pool, &mut task.run.generator(Stream::Survey.of_body(1)));
+    let repetition = Repetition::of(task.target, &pool);
     let of_tails = tails.endless.map(|[rays, of]| Doubt::Endless { rays, of });
-    let doubt = of_tails.or(check.doubt);
+    // Of what is no function the others say nothing.
+    let doubt = repetition.doubt.or(of_tails).or(check.doubt);
     // What is no gradient, or leads nowhere, moves nothing.
     let still = MpmOptions {
         rounds: Some(0),
@@ -105,7 +108,8 @@ fn condensed<const D: usize>(
     samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
     samples.steps = steps;
     samples.score_evaluations = spent + pool.score_evaluations + check.scores;
-    samples.density_evaluations = densities + pool.density_evaluations + check.densities + tails.densities;
+    samples.density_evaluations =
+        densities + pool.density_evaluations + check.densities + tails.densities + repetition.densities;
     samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
     samples.certificate = options
         .certificate

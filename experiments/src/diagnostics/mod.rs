@@ -164,7 +164,7 @@ fn of_target<const D: usize>(
         particles: points.len(),
         effective_sample_size: size,
         outcome: certificate.map(|certificate| certificate.outcome.name()),
-        reason: certificate.and_then(|certificate| certificate.outcome.reason()),
+        reason: certificate.and_then(|certificate| certificate.outcome.reason_naming(names)),
         score_evaluations: outcome.score_evaluations,
         density_evaluations: outcome.density_evaluations,
         log_evidence: outcome.log_evidence,

@@ -50,11 +50,11 @@ pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, Command
     })
 }
 
-/// As [`attempt`], of the points that stand for a target: a log density that is no number makes none, of this target alone.
+/// As [`attempt`], of the points that stand for a target: a log density that is no number, or a sample that is worth too little, makes none, of this target alone.
 pub fn of_reference<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, CommandError> {
     result.map(Ok).or_else(|error| match error {
         CommandError::Failed(failure) => Ok(Err(failure)),
-        CommandError::Target(TargetError::ReferenceFailed { .. }) => Ok(Err(Failure::new(Status::Diverged, error))),
+        CommandError::Target(TargetError::ReferenceFailed { .. }) => Ok(Err(Failure::new(Status::NoReference, error))),
         error => Err(error),
     })
 }

@@ -74,17 +74,16 @@ impl Configuration {
         values
     }
 
-    /// Fingerprints of the files that parameters of targets name as their `data`, by these names.
+    /// Fingerprints of the files that parameters of targets name as their `data` or in the command line of their `program`, by these names.
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn data_fingerprints(&self) -> Result<BTreeMap<String, String>, CommandError> {
+    pub fn target_fingerprints(&self) -> Result<BTreeMap<String, String>, CommandError> {
         let mut files = Vec::new();
-        data_files(&Value::Table(self.text.parse().unwrap_or_default()), &mut files);
+        target_files(&Value::Table(self.text.parse().unwrap_or_default()), &mut files);
         let of = |file: String| {
             let bytes = fs::read(&file).map_err(|source| CommandError::file("read", &file, source))?;
-            let print = fingerprint(&String::from_utf8_lossy(&bytes));
-            Ok((file, print))
+            Ok((file, of_bytes(&bytes)))
         };
         files.into_iter().map(of).collect()
     }
@@ -137,17 +136,28 @@ fn collect(table: &Table, place: &str, values: &mut Vec<(String, String)>) {
     }
 }
 
-/// Adds what stands at `parameters.data` of any table.
-fn data_files(value: &Value, files: &mut Vec<String>) {
+/// Adds what stands at `parameters.data` of any table, and the files in `parameters.program`.
+fn target_files(value: &Value, files: &mut Vec<String>) {
     match value {
         Value::Table(table) => {
-            let data = table.get("parameters").and_then(|parameters| parameters.get("data"));
-            files.extend(data.and_then(Value::as_str).map(str::to_owned));
-            table.values().for_each(|value| data_files(value, files));
+            let parameters = table.get("parameters");
+            let text = |key: &str| parameters.and_then(|parameters| parameters.get(key)?.as_str());
+            files.extend(text("data").map(str::to_owned));
+            files.extend(text("program").map(files_in).unwrap_or_default());
+            table.values().for_each(|value| target_files(value, files));
         }
-        Value::Array(list) => list.iter().for_each(|value| data_files(value, files)),
+        Value::Array(list) => list.iter().for_each(|value| target_files(value, files)),
         _ => {}
     }
+}
+
+/// The words of a command line that are files, whether the shell would part it there or at its quotes alone.
+fn files_in(command: &str) -> Vec<String> {
+    let quotes = ['\'', '"'];
+    let parts = |letter: char| letter.is_whitespace() || quotes.contains(&letter) || ";|&<>()=".contains(letter);
+    let words = command.split(quotes).chain(command.split(parts));
+    let is_file = |word: &&str| Path::new(word).is_file();
+    words.map(str::trim).filter(is_file).map(str::to_owned).collect()
 }
 
 /// A number or a list of them; what is neither is for the kind to refuse.
@@ -161,7 +171,11 @@ fn whole_numbers(value: Option<&Value>) -> Vec<u64> {
 
 /// The fingerprint of a text in hexadecimal digits.
 pub fn fingerprint(text: &str) -> String {
-    format!("{:016x}", mpm_document::fingerprint(text.as_bytes()))
+    of_bytes(text.as_bytes())
+}
+
+fn of_bytes(bytes: &[u8]) -> String {
+    format!("{:016x}", mpm_document::fingerprint(bytes))
 }
 
 #[cfg(test)]
@@ -218,6 +232,21 @@ mod tests {
         assert_eq!((one.threads(), one.seeds), (Some(2), vec![3]));
         let many = read("kind = \"a\"\nseeds = [1, 2]\n[part]\nthreads = 4");
         assert_eq!((many.threads(), many.seeds), (None, vec![1, 2]));
+    }
+
+    #[test]
+    fn files_of_a_command_are_found_between_quotes_and_signs() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = |name: &str| {
+            let path = directory.path().join(name);
+            fs::write(&path, "x").unwrap();
+            path.display().to_string()
+        };
+        let [plain, spaced, given] = ["a.py", "b c.py", "d.csv"].map(file);
+        let found = files_in(&format!(
+            "python3 {plain} '{spaced}' --data={given}; cat <{given} no-such-file"
+        ));
+        assert_eq!(found, [&spaced, &plain, &given, &given].map(String::clone));
     }
 
     #[test]

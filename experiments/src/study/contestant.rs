@@ -52,12 +52,16 @@ impl Contestant {
         Ok(methods.enumerate().map(case).collect())
     }
 
-    /// Its runs, as far as they have been made.
+    /// Its runs, as far as they have been made: none of one that has nothing to be held against.
     ///
     /// # Errors
     /// A file that cannot be read.
     pub fn trials(&self, directory: &StudyDirectory, columns: &str) -> Result<Vec<Row>, CommandError> {
-        row_file::read(&self.file(directory), columns)
+        let file = self.file(directory);
+        if !file.exists() {
+            return Ok(Vec::new());
+        }
+        row_file::read(&file, columns)
     }
 
     /// The method that sets its task.

@@ -124,7 +124,9 @@ pub fn standard_yardstick<'a>(
     target: &TargetSpecification,
     current: &'a mut CurrentYardstick,
 ) -> Result<&'a dyn Yardstick, CommandError> {
-    current.of(target, &YardstickOptions::of_energy(2, 0, Coordinates::Standardised))
+    let options = YardstickOptions::of_energy(2, 0, Coordinates::Standardised);
+    // Of an exact one there is nothing to note.
+    current.of(target, &options, &mut Row::default())
 }
 
 /// The spacing that the calibrated sampler would choose with a basis.

@@ -19,7 +19,7 @@ pub struct Manifest {
     pub kind: String,
     /// Fingerprint of the configuration.
     pub config_hash: String,
-    /// Fingerprints of the data files that the configuration names, by their names there.
+    /// Fingerprints of the data files, and of the files in commands of programs, that the configuration names, by their names there.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub data: BTreeMap<String, String>,
     /// Seeds, as in the configuration.

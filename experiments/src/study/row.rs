@@ -137,6 +137,12 @@ pub trait RunRows: Sized {
     /// The runs that claim to stand for the target with more than so much in a column, or nothing.
     fn false_claims(&self, column: &str, most: f64) -> Self;
 
+    /// The runs on targets that there is something to hold particles against.
+    fn held(&self) -> Self;
+
+    /// Says on a page how well the samples are known that stand for targets, and of which targets none does.
+    fn references(&self, page: &mut Page);
+
     /// The runs that gave nothing, each as an item of a list.
     fn failures(&self) -> Vec<String>;
 
@@ -159,6 +165,19 @@ impl RunRows for Rows<'_> {
 
     fn false_claims(&self, column: &str, most: f64) -> Self {
         self.having(|row| row.claims() && !row.is_within(column, most))
+    }
+
+    fn held(&self) -> Self {
+        self.having(|row| row.status() != Status::NoReference)
+    }
+
+    fn references(&self, page: &mut Page) {
+        let sampled = self.having(|row| row.number("reference_size").is_some());
+        if !sampled.is_empty() {
+            page.section("References", &[], sampled.lines("target", sampled.words("target")));
+        }
+        let without = self.having(|row| row.status() == Status::NoReference);
+        page.list("Runs that are held against nothing", &without.failures(), None);
     }
 
     fn failures(&self) -> Vec<String> {

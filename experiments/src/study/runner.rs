@@ -84,7 +84,7 @@ fn in_threads<T: Send>(
     pool.map_err(refused)?.install(work)
 }
 
-/// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases. A study whose data files have changed since it began is refused.
+/// Writes the manifest, or adds this start to it. Seeds that the configuration does not say are those of the cases. A study is refused if data files of its targets, or files that the commands of their programs name, have changed since it began.
 fn note_start<S: Study>(
     cases: &[Case<S::Work>],
     configuration: &Configuration,
@@ -92,13 +92,13 @@ fn note_start<S: Study>(
 ) -> Result<(), CommandError> {
     let threads = rayon::current_num_threads();
     let path = directory.file(manifest::FILE_NAME);
-    let data = configuration.data_fingerprints()?;
+    let data = configuration.target_fingerprints()?;
     let manifest = if path.exists() {
         let mut manifest = Manifest::read(&path)?;
         for (file, now) in data {
             let before = manifest.data.entry(file.clone()).or_insert_with(|| now.clone());
             let changed = || format!("{file} has changed since this study began; choose another --out");
-            holds(*before == now, "data", changed)?;
+            holds(*before == now, "targets.parameters", changed)?;
         }
         manifest.resumed.push(Provenance::now(threads));
         manifest

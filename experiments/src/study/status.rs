@@ -15,6 +15,8 @@ words! {
         Diverged,
         /// Not begun: the target lacks what the method needs, or there is no error to reach.
         Unsupported,
+        /// Not begun: what stands for the target is not known well enough to hold particles against it.
+        NoReference,
         /// A search: the error was reached.
         Reached,
         /// A search: a run took longer than allowed without reaching it.

@@ -5,10 +5,13 @@ use std::time::Instant;
 pub use parvi_metrics::yardstick::{Coordinates, Errors, ReferenceError, YardstickOptions};
 use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
 
+use super::attempt::Failure;
+use super::status::Status;
 use crate::CommandError;
 use crate::dispatch::on_target;
 use crate::options::TargetSpecification;
 use crate::output::Particles;
+use crate::plots::results::Row;
 use crate::sampling::Outcome;
 use crate::statistics::summarize;
 
@@ -49,13 +52,18 @@ pub struct CurrentYardstick {
 }
 
 impl CurrentYardstick {
-    /// The yardstick of a target; the one at hand if it is the same target's, else a new one.
+    /// The yardstick of a target; the one at hand if it is the same target's, else a new one. How well the sample is known that stands for the target, where one does, is noted in
+    /// the row of the case.
+    ///
+    /// # Errors
+    /// What cannot be built, and a failure where such a sample is not worth the row's `particles`.
     pub fn of(
         &mut self,
         target: &TargetSpecification,
         options: &YardstickOptions,
+        row: &mut Row,
     ) -> Result<&dyn Yardstick, CommandError> {
-        Ok(self.levelled(target, options, None)?.0)
+        Ok(self.levelled(target, options, None, row)?.0)
     }
 
     /// The same with the median sliced Wasserstein distance of sets of independent draws, if there are to be any.
@@ -64,17 +72,28 @@ impl CurrentYardstick {
         target: &TargetSpecification,
         options: &YardstickOptions,
         sets: Option<IndependentSets>,
+        row: &mut Row,
     ) -> Result<(&dyn Yardstick, Option<f64>), CommandError> {
         let (_, yardstick, level) = match self.current.take() {
             Some(current) if current.0 == *target => self.current.insert(current),
             _ => {
                 let made = on_target!(target, built, D => {
-                    Ok(Box::new(TargetYardstick::<D>::new(built, options)?) as Box<dyn Yardstick>)
+                    let made = TargetYardstick::<D>::new(built, options);
+                    if let Err(YardstickError::ReferenceTooSmall { effective_size, .. }) = &made {
+                        row.set("reference_size", *effective_size);
+                    }
+                    Ok(Box::new(made?) as Box<dyn Yardstick>)
                 })?;
                 let level = sets.map(|sets| made.sliced_level(sets, options.seed)).transpose()?;
                 self.current.insert((target.clone(), made, level))
             }
         };
+        if let Some(known) = yardstick.reference_error() {
+            row.set("reference_size", known.effective_size);
+            row.set("reference_mean_error", known.mean);
+            row.set("reference_deviation_error", known.deviation);
+            known.suffices_for(row.count("particles").unwrap_or(0))?;
+        }
         Ok((&**yardstick, *level))
     }
 }
@@ -83,7 +102,9 @@ impl From<YardstickError> for CommandError {
     fn from(error: YardstickError) -> Self {
         match error {
             YardstickError::Target(error) => error.into(),
-            YardstickError::Metric(error) => error.into(),
+            error @ (YardstickError::ReferenceTooSmall { .. } | YardstickError::Metric(_)) => {
+                Failure::new(Status::NoReference, error).into()
+            }
             error => Self::Library(error.into()),
         }
     }

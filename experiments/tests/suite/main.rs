@@ -6,6 +6,8 @@ mod gaussian_studies;
 mod left_out;
 mod paper_study;
 mod random_targets;
+#[cfg(unix)]
+mod references;
 mod report_tables;
 #[cfg(feature = "rom")]
 mod rom;

@@ -1,6 +1,6 @@
 //! What `parvi sample` writes and says.
 
-use crate::support::{files, numbers, parvi, sampled_regression, stderr, stdout, succeeds, value};
+use crate::support::{files, numbers, parvi, sampled_regression, stderr, stdout, succeeds, value, write_responses};
 
 fn keys(text: &str) -> Vec<&str> {
     text.lines().map(|line| line.split_once('=').unwrap().0).collect()
@@ -146,6 +146,34 @@ fn columns_of_a_regression_have_the_names_of_its_data() {
 }
 
 #[test]
+fn reasons_about_a_coordinate_of_a_regression_have_its_name() {
+    let directory = tempfile::tempdir().unwrap();
+    write_responses(&directory.path().join("d.csv"), "y,age,dose");
+    let line = "sample --target logistic --data d.csv --survey off --particles 10 --out x.csv --diagnostics d.json";
+    let output = succeeds(directory.path(), line);
+    let reason = value(&output, "reason").unwrap();
+    let named = ["intercept", "age", "dose"].map(|name| format!("of {name}:"));
+    assert!(named.iter().any(|name| reason.contains(name.as_str())), "{reason}");
+    assert!(stderr(&output).contains(&reason));
+    let found = std::fs::read_to_string(directory.path().join("d.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+    assert_eq!(found["reason"], reason);
+}
+
+#[test]
+fn errors_of_coefficients_of_any_size_are_numbers() {
+    let directory = tempfile::tempdir().unwrap();
+    let rows: String = (0..40_i32)
+        .map(|k| format!("{},{}e-100\n", u8::from(k % 3 == 0), k * 7 % 11))
+        .collect();
+    std::fs::write(directory.path().join("d.csv"), format!("y,dose\n{rows}")).unwrap();
+    let line = "sample --target logistic --data d.csv --prior-sd inf --particles 200 --out x.csv";
+    let output = succeeds(directory.path(), line);
+    assert_eq!(value(&output, "outcome").unwrap(), "converged", "{}", stderr(&output));
+    assert!(value(&output, "sd_error").unwrap().parse::<f64>().unwrap() < 0.09);
+}
+
+#[test]
 fn options_of_a_body_that_has_not_moved_are_named() {
     let directory = tempfile::tempdir().unwrap();
     let said = |options: &str| {
@@ -163,6 +191,11 @@ fn options_of_a_body_that_has_not_moved_are_named() {
         notice.starts_with("--steps: without effect: none is moved with --rounds 0"),
         "{notice}"
     );
+    for (options, why) in [("--weighted on", "weighted particles"), ("--rounds 0", "none is moved")] {
+        let (_, notice) = said(&format!("{options} --moment-correction affine"));
+        let expected = format!("--moment-correction: without effect: {why}");
+        assert!(notice.starts_with(&expected), "{notice}");
+    }
     let moving = |options: &str| said(&format!("--survey off --steps 5 {options}")).1;
     let notice = moving("--shifts off --spacing-range 2 --rotation on --settling-shifts on");
     let expected = "--rotation, --spacing-range, --settling-shifts: without effect: the basis keeps still";

@@ -113,7 +113,41 @@ fn data_that_have_changed_are_another_study() {
     let output = parvi(root.path(), "run study.toml --out out");
     assert_refused(
         &output,
-        &["study.toml", "data", "data.csv has changed since this study began"],
+        &[
+            "study.toml",
+            "targets.parameters",
+            "data.csv has changed since this study began",
+        ],
+    );
+    assert_eq!(std::fs::read(root.path().join("out/results.csv")).unwrap(), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_that_has_changed_is_another_study() {
+    let root = tempfile::tempdir().unwrap();
+    let of = "targets = [{ name = \"program\", dim = 2, parameters = { program = \"sh ./flat.sh\" } }]\n\
+              methods = [{ name = \"svgd\" }]\n";
+    let head = STUDY.split("targets").next().unwrap();
+    std::fs::write(root.path().join("study.toml"), format!("{head}{of}")).unwrap();
+    let program = root.path().join("flat.sh");
+    let answering = |density: &str| {
+        let text = format!("while read what x; do case $what in density) echo {density};; *) echo 0 0;; esac; done\n");
+        std::fs::write(&program, text).unwrap();
+    };
+    answering("nan");
+    run(root.path(), "out");
+    run(root.path(), "out");
+    let before = std::fs::read(root.path().join("out/results.csv")).unwrap();
+    answering("-inf");
+    let output = parvi(root.path(), "run study.toml --out out");
+    assert_refused(
+        &output,
+        &[
+            "study.toml",
+            "targets.parameters",
+            "./flat.sh has changed since this study began",
+        ],
     );
     assert_eq!(std::fs::read(root.path().join("out/results.csv")).unwrap(), before);
 }
@@ -130,10 +164,10 @@ fn a_target_that_answers_nan_does_not_end_a_study() {
     let head = STUDY.split("targets").next().unwrap();
     std::fs::write(root.path().join("study.toml"), format!("{head}{of}")).unwrap();
     let output = succeeds(root.path(), "run study.toml --out out");
-    assert_eq!(value(&output, "diverged").as_deref(), Some("2"));
+    assert_eq!(value(&output, "no_reference").as_deref(), Some("2"));
     let rows = crate::support::rows(root.path());
     let ends: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
-    assert_eq!(ends, ["diverged", "diverged", "finished", "finished"]);
+    assert_eq!(ends, ["no-reference", "no-reference", "finished", "finished"]);
     assert!(rows[0]["note"].contains("NaN"), "{rows:?}");
 }
 

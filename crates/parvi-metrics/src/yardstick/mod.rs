@@ -85,6 +85,16 @@ pub enum YardstickError {
     /// The importance sample or the quasi-random points cannot be had.
     #[error(transparent)]
     Target(#[from] TargetError),
+    /// The sample that stands for the target is worth too few independent draws.
+    #[error(
+        "the importance sample that stands for the target is worth {effective_size:.1} independent draws, not {needed}"
+    )]
+    ReferenceTooSmall {
+        /// (Σ w)² / Σ w².
+        effective_size: f64,
+        /// What is compared with it, and 100 or more.
+        needed: usize,
+    },
     /// The points cannot be compared with.
     #[error(transparent)]
     Metric(#[from] MetricError),

@@ -2,6 +2,11 @@
 
 use parvi_targets::ReferenceMoments;
 
+use super::YardstickError;
+
+/// Of fewer draws neither the spread nor the effective size itself is known.
+const LEAST_SIZE: usize = 100;
+
 /// What the points of a sample are worth, and the largest standard errors of their moments over the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceError {
@@ -26,6 +31,19 @@ impl ReferenceError {
             mean: largest(&moments.mean_error),
             deviation: largest(&moments.standard_deviation_error),
         }
+    }
+
+    /// Refuses a sample that is worth fewer independent draws than it is compared with particles, or fewer than 100: what is measured against it would be its own error.
+    ///
+    /// # Errors
+    /// [`YardstickError::ReferenceTooSmall`].
+    pub fn suffices_for(&self, particles: usize) -> Result<(), YardstickError> {
+        let (effective_size, needed) = (self.effective_size, particles.max(LEAST_SIZE));
+        // A size that is NaN suffices for nothing; rounding takes nothing from a sample of equal weights.
+        if effective_size * (1.0 + 1e-9) >= needed as f64 {
+            return Ok(());
+        }
+        Err(YardstickError::ReferenceTooSmall { effective_size, needed })
     }
 }
 
@@ -55,5 +73,24 @@ mod tests {
         moments.moments.covariance.0[0][0] = 0.0;
         moments.mean_error[0] = 0.0;
         assert_eq!(ReferenceError::of(&moments).mean, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_sample_is_worth_at_least_what_is_compared_with_it() {
+        let suffices = |effective_size: f64, particles: usize| {
+            let error = ReferenceError {
+                effective_size,
+                mean: 0.0,
+                deviation: 0.0,
+            };
+            error.suffices_for(particles)
+        };
+        assert!(suffices(1024.0 - 1e-8, 1024).is_ok() && suffices(100.0, 2).is_ok());
+        assert!(suffices(99.0, 2).is_err() && suffices(f64::NAN, 2).is_err());
+        let message = suffices(1.0, 300).unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "the importance sample that stands for the target is worth 1.0 independent draws, not 300"
+        );
     }
 }

@@ -26,7 +26,7 @@ impl<const D: usize> TargetYardstick<D> {
     /// Represents the target; O(N²) for the reference's own term.
     ///
     /// # Errors
-    /// [`YardstickError`]: no points that stand for it, or such as have no finite distances.
+    /// [`YardstickError`]: no points that stand for it, too few, or such as have no finite distances.
     pub fn new(target: BoxedTarget<D>, options: &YardstickOptions) -> Result<Self, YardstickError> {
         (Compiled::of().of_target)(target, options)
     }
@@ -43,6 +43,9 @@ impl<const D: usize> TargetYardstick<D> {
             Coordinates::Own => own_representation(&target, options)?,
             Coordinates::Scaled | Coordinates::Standardised => standardised_representation(&target, options)?,
         };
+        if let Some(error) = error {
+            error.suffices_for(0)?;
+        }
         let coordinates = match (options.coordinates, &sample) {
             (Coordinates::Own, None) => None,
             (Coordinates::Own, Some(_)) | (Coordinates::Scaled, _) => Some(Standardiser::per_axis(&moments)?),

@@ -337,6 +337,50 @@ fn the_catalogue_reads_files() {
 }
 
 #[test]
+fn priors_without_a_normal_precision_are_refused_with_their_range() {
+    let (_folder, _path, parameters) = trial();
+    let built = |s: f64| {
+        let parameters = Parameters {
+            prior_standard_deviation: Some(s),
+            ..parameters.clone()
+        };
+        build::<3>("logistic", &parameters).map(|_| ())
+    };
+    for s in [1e-160, 7e-155, 7e153, 1e155, f64::MAX, 1e-320] {
+        let error = built(s).unwrap_err();
+        let message = error.to_string();
+        assert!(
+            matches!(error, TargetError::OutOfRange { value, .. } if value == s),
+            "{message}"
+        );
+        assert!(message.contains("from 7.46e-155 to 6.70e153, or inf"), "{message}");
+    }
+    for s in [1e-3, 6.7e153] {
+        assert_eq!(built(s), Ok(()), "{s}");
+    }
+}
+
+#[test]
+fn a_hessian_without_curvature_names_the_column() {
+    let rows: Vec<(bool, Vec<f64>)> = (0..12)
+        .map(|row| {
+            let dose = f64::from(row * row % 7);
+            (row % 3 == 0, vec![dose, dose * (1.0 + 1e-15 * f64::from(row))])
+        })
+        .collect();
+    let data = RegressionData::new("memory", &["dose", "again"], &rows).unwrap();
+    let error = LogisticRegression::<3>::with_prior("trial", data, 1e12)
+        .map(|_| ())
+        .unwrap_err();
+    let message = error.to_string();
+    assert!(
+        message.starts_with("the negative Hessian of 'trial' is not positive definite (pivot ")
+            && message.ends_with(" of column 'again' of memory)"),
+        "{message}"
+    );
+}
+
+#[test]
 fn data_from_memory_are_checked() {
     let rows = vec![(true, vec![1.0]), (false, vec![2.0])];
     let data = RegressionData::new("memory", &["a"], &rows).unwrap();

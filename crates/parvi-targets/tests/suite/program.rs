@@ -106,7 +106,6 @@ fn a_program_that_ends_is_a_fault_and_its_values_are_none_from_then_on() {
     let mut densities = [0.0; 5];
     three.log_densities(&[[1.0, 2.0]; 3], &mut densities[..3]);
     assert_eq!(densities[..3], [3.0, 4.0, 5.0]);
-    assert_eq!(three.fault(), None);
     three.log_densities(&[[1.0, 2.0]; 5], &mut densities);
     assert!(densities.iter().all(|density| density.is_nan()));
     let fault = three.fault().unwrap().to_string();
@@ -116,4 +115,52 @@ fn a_program_that_ends_is_a_fault_and_its_values_are_none_from_then_on() {
     );
     assert!(three.log_density(&[0.0; 2]).is_nan() && three.score(&[0.0; 2])[0].is_nan());
     assert_eq!(three.fault().unwrap().to_string(), fault);
+}
+
+/// A density of a coordinate that is said once more at the question of this number, before the answer or after it.
+fn saying_more(at: usize, before: &str, after: &str) -> String {
+    let answer = "if [ $what = score ]; then echo 0 0; else echo $x; fi";
+    let more = |text: &str| match text {
+        "" => ":".to_owned(),
+        text => format!("if [ $n = {at} ]; then echo {text}; fi"),
+    };
+    let (before, after) = (more(before), more(after));
+    format!("n=0; while read what x rest; do n=$((n+1)); {before}; {answer}; {after}; done")
+}
+
+#[test]
+fn a_line_too_many_is_a_fault_before_it_shifts_answers_or_at_the_end() {
+    for (before, after) in [("7", ""), ("", "7"), ("", "seven")] {
+        let target = start::<2>(&saying_more(40, before, after)).unwrap();
+        let xs: Vec<[f64; 2]> = (0..200).map(|n| [f64::from(n), 0.0]).collect();
+        let mut densities = vec![0.0; xs.len()];
+        for _ in 0..5 {
+            target.log_densities(&xs, &mut densities);
+        }
+        // What line it is depends on when it is noticed, but that it is one too many is certain.
+        let fault = target.fault().unwrap().to_string();
+        let is_noticed = fault.contains("beside its answers") || fault.contains("'seven', which is not a number");
+        assert!(is_noticed, "{fault}");
+        assert!(target.log_density(&[0.0; 2]).is_nan());
+    }
+}
+
+#[test]
+fn the_last_line_too_many_is_named_at_the_end() {
+    // Two questions at the beginning, and one more.
+    let target = start::<2>(&saying_more(3, "", "7")).unwrap();
+    assert_eq!(target.log_density(&[5.0, 0.0]), 5.0);
+    let fault = target.fault().unwrap().to_string();
+    assert!(
+        fault.contains("prints '7' beside its answers, which are one line for every question"),
+        "{fault}"
+    );
+    let sound = start::<2>(&saying_more(0, "", "7")).unwrap();
+    assert_eq!(sound.log_density(&[5.0, 0.0]), 5.0);
+    assert_eq!(sound.fault(), None);
+    assert_eq!(
+        sound.log_density(&[6.0, 0.0]),
+        6.0,
+        "a program that was ended is begun anew"
+    );
 }

@@ -1,6 +1,6 @@
 //! The verdict of the weights.
 
-use parvi_pool::{Objection, Pool};
+use parvi_pool::{Estimate, Objection, Pool};
 
 use super::{Certificate, Doubt, EstimatedMoment, MomentEstimate, Outcome, doubt_of_moments};
 use crate::Samples;
@@ -44,8 +44,15 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEs
     let own = Extent::of_weighted(&samples.positions, samples.weights.as_deref());
     let rate = (samples.positions.len() as f64).sqrt();
     let of_axis = |a: usize| {
-        let mean = pool.expectation(|x| x[a]);
-        let square = pool.expectation(|x| (x[a] - mean.value).powi(2));
+        // In units of a power of two, which rounds nothing: squares of squares of large coordinates overflow.
+        let unit = power_of_two(own.deviation[a]);
+        let in_units = |of: Estimate, unit: f64| Estimate {
+            value: of.value * unit,
+            standard_error: of.standard_error * unit,
+            ..of
+        };
+        let mean = in_units(pool.expectation(|x| x[a] / unit), unit);
+        let square = in_units(pool.expectation(|x| ((x[a] - mean.value) / unit).powi(2)), unit * unit);
         let deviation = square.value.max(0.0).sqrt();
         let deviation_error = square.standard_error / (2.0 * deviation);
         MomentEstimate {
@@ -64,4 +71,10 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEs
         }
     };
     (0..D).map(of_axis).collect()
+}
+
+/// The power of two below a number above 0, near enough for units; 1 of what is no such number.
+fn power_of_two(size: f64) -> f64 {
+    let unit = size.log2().floor().exp2();
+    if unit.is_normal() { unit } else { 1.0 }
 }

@@ -20,7 +20,7 @@ pub enum Outcome {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Doubt {
     /// The scores say that the mean may be off.
-    #[error("the mean of x{axis} may be off by {error:.3} standard deviations")]
+    #[error("the mean of x{axis} may be off by {}", in_deviations(*.error))]
     Mean {
         /// Axis.
         axis: usize,
@@ -28,7 +28,7 @@ pub enum Doubt {
         error: f64,
     },
     /// The scores say that the standard deviation may be off.
-    #[error("the standard deviation of x{axis} may be off by {:.1} %", 100.0 * .error)]
+    #[error("the standard deviation of x{axis} may be off by {}", in_percent(*.error))]
     StandardDeviation {
         /// Axis.
         axis: usize,
@@ -56,6 +56,18 @@ pub enum Doubt {
         points: usize,
         /// Points that were looked at.
         of: usize,
+    },
+    /// The log density is not a function of the point, but noise, or depends on something else.
+    #[error(
+        "log p is not a function of the point: evaluated once more it differs at {points} of {of} points, by up to {largest:.3}"
+    )]
+    AnotherValue {
+        /// Points at which it differs by more than rounding explains.
+        points: usize,
+        /// Points at which it was evaluated once more.
+        of: usize,
+        /// The largest difference, infinite where it is no number any more.
+        largest: f64,
     },
     /// Along rays through points of the pool r^D p does not fall off, r the distance: the density may be improper.
     #[error(
@@ -158,6 +170,48 @@ pub enum Doubt {
     },
 }
 
+/// An error of a mean in words.
+fn in_deviations(error: f64) -> String {
+    match error.is_finite() {
+        true => format!("{error:.3} standard deviations"),
+        false => UNKNOWN.to_owned(),
+    }
+}
+
+/// A relative error in words.
+fn in_percent(error: f64) -> String {
+    match error.is_finite() {
+        true => format!("{:.1} %", 100.0 * error),
+        false => UNKNOWN.to_owned(),
+    }
+}
+
+/// What is said of an error that is no number.
+const UNKNOWN: &str = "an amount that nobody knows: what estimates it is no number";
+
+impl Doubt {
+    /// The axis that it is about, from 1, if it is about one.
+    pub fn axis(&self) -> Option<usize> {
+        match self {
+            Self::Mean { axis, .. } | Self::StandardDeviation { axis, .. } | Self::Unexplained { axis, .. } => {
+                Some(*axis)
+            }
+            _ => None,
+        }
+    }
+
+    /// The same in words with the name of the axis, where there is one for it, in the place of its number.
+    pub fn naming(&self, names: &[String]) -> String {
+        let text = self.to_string();
+        let known = self
+            .axis()
+            .and_then(|axis| Some((axis, names.get(axis.checked_sub(1)?)?)));
+        known.map_or(text.clone(), |(axis, name)| {
+            text.replacen(&format!(" of x{axis}"), &format!(" of {name}"), 1)
+        })
+    }
+}
+
 impl Outcome {
     /// By the drift and by what else speaks against the particles.
     pub(crate) fn of(drift: f64, doubt: Option<Doubt>) -> Self {
@@ -179,9 +233,14 @@ impl Outcome {
 
     /// Why it is not `converged`.
     pub fn reason(&self) -> Option<String> {
+        self.reason_naming(&[])
+    }
+
+    /// The same with the coordinates' names, as far as they are given.
+    pub fn reason_naming(&self, names: &[String]) -> Option<String> {
         match self {
             Self::Converged => None,
-            Self::Stalled(doubt) => Some(doubt.to_string()),
+            Self::Stalled(doubt) => Some(doubt.naming(names)),
             Self::BudgetExhausted { drift } => Some(format!(
                 "the particles still moved by {drift:.2} standard deviations over the last tenth of the steps"
             )),
@@ -199,6 +258,26 @@ impl fmt::Display for Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_doubt_about_an_axis_has_its_name_and_no_infinity() {
+        let doubt = Outcome::Stalled(Doubt::StandardDeviation { axis: 2, error: 0.25 });
+        let names = ["intercept", "x1"].map(str::to_owned);
+        let reason = |names: &[String]| doubt.reason_naming(names).unwrap();
+        assert_eq!(reason(&names), "the standard deviation of x1 may be off by 25.0 %");
+        assert_eq!(reason(&names[..1]), "the standard deviation of x2 may be off by 25.0 %");
+        let error = f64::INFINITY;
+        for doubt in [
+            Doubt::Mean { axis: 1, error },
+            Doubt::StandardDeviation { axis: 1, error },
+        ] {
+            let text = doubt.naming(&names);
+            assert!(
+                text.contains("of intercept may be off by an amount") && !text.contains("inf "),
+                "{text}"
+            );
+        }
+    }
 
     #[test]
     fn an_outcome_is_written_as_its_name() {

@@ -5,7 +5,7 @@ with_defaults! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct AisOptions {
         /// Evaluations of all kinds that the pool is planned with, ≥ 1; [`PoolOptions`](parvi_pool::PoolOptions) says what is evaluated in any case, and has the default for `None`. To these come one per
-        /// particle and up to 96 by which scores and tails are checked.
+        /// particle and up to 100 by which scores, tails and values are checked.
         pub evaluations: Option<u64> = None,
         /// How many times as much is drawn in search of pieces that no proposal has met; ≥ 1.
         pub search_effort: f64 = 1.0,

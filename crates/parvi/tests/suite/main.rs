@@ -17,6 +17,7 @@ mod paper_materials;
 mod paper_oracle;
 mod paper_rest;
 mod paper_watch;
+mod repetition;
 mod robustness;
 mod samplers;
 mod smc;

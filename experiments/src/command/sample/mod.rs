@@ -135,14 +135,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     watch.progress.clear();
     let outcome = sampled.map_err(|error| watch.reason(resumable(of_flags(error), arguments)))?;
     file.write(&outcome.particles, &names)?;
-    said::warn(arguments, &outcome);
+    said::warn(arguments, &outcome, &names);
     if let Some(file) = pool {
         file.write(outcome.pool.as_ref().ok_or(CommandError::NoPool)?, &names)?;
     }
     if let (Some(file), Some(watched)) = (best, &outcome.watched) {
         file.write(&watched.best, &names)?;
     }
-    let mut pairs = said::pairs(arguments, &outcome, peak_memory);
+    let mut pairs = said::pairs(arguments, &outcome, &names, peak_memory);
     if let Some(mut diagnostics) = diagnostics {
         let content = diagnose(&target, &outcome, &column_names(&names, dimension), &pairs)?;
         diagnostics.fill(|writer| Ok(serde_json::to_writer_pretty(writer, &content)?))?;

@@ -18,6 +18,7 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
         return;
     }
     let has_rounds = arguments.options.rounds.is_none_or(|rounds| rounds.get() > 0);
+    let is_weighted = arguments.options.weighted == Some(Switch::On);
     let why = match arguments.options.weighted {
         Some(Switch::On) => "weighted particles are not moved",
         _ if !has_rounds => "none is moved with --rounds 0",
@@ -25,7 +26,11 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
             "the weighed evaluations served all particles, and none was moved; --steps or --rounds lets the material try"
         }
     };
-    let is_idle = |name: &str| is_among(OF_MOVES, name) || name == "steps" && !has_rounds;
+    let is_idle = |name: &str| match name {
+        "steps" | "moment-correction" => is_weighted || !has_rounds,
+        "rounds" => is_weighted && has_rounds,
+        name => is_among(OF_MOVES, name),
+    };
     notice_idle(arguments, is_idle, why);
 }
 
@@ -65,8 +70,8 @@ fn notice_idle(arguments: &Arguments, is_idle: impl Fn(&str) -> bool, why: &str)
     }
 }
 
-/// What a user should know before trusting the particles.
-pub fn warn(arguments: &Arguments, outcome: &Outcome) {
+/// What a user should know before trusting the particles, whose coordinates have these names, or none.
+pub fn warn(arguments: &Arguments, outcome: &Outcome, names: &[String]) {
     warn_of_rest(arguments, outcome);
     warn_of_idle(arguments, outcome);
     if outcome.scores_replaced > 0 {
@@ -77,13 +82,13 @@ pub fn warn(arguments: &Arguments, outcome: &Outcome) {
         console::notice(&format!("{count} scores on the way were not finite; {remedy}"));
     }
     let found = outcome.certificate.as_ref().map(|certificate| &certificate.outcome);
-    if let Some((found, reason)) = found.and_then(|found| Some((found, found.reason()?))) {
+    if let Some((found, reason)) = found.and_then(|found| Some((found, found.reason_naming(names)?))) {
         console::notice(&format!("{}: {reason}", found.name()));
     }
 }
 
 /// What standard output says.
-pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>) -> Vec<Pair> {
+pub fn pairs(arguments: &Arguments, outcome: &Outcome, names: &[String], peak_memory: Option<u64>) -> Vec<Pair> {
     let (certificate, seen) = (outcome.certificate.as_ref(), outcome.watched.as_ref());
     let found = certificate.map(|certificate| &certificate.outcome);
     let deviation = certificate.and_then(Certificate::standard_deviation_error);
@@ -112,7 +117,7 @@ pub fn pairs(arguments: &Arguments, outcome: &Outcome, peak_memory: Option<u64>)
         ("divergences", outcome.divergences.into()),
         (PEAK_MEMORY_KEY, peak_memory.into()),
         ("outcome", found.map(|found| found.name()).into()),
-        ("reason", found.and_then(|found| found.reason()).into()),
+        ("reason", found.and_then(|found| found.reason_naming(names)).into()),
         ("mean_error", certificate.and_then(Certificate::mean_error).into()),
         ("sd_error", deviation.into()),
         ("unexplained", certificate.and_then(Certificate::unexplained).into()),

@@ -115,13 +115,8 @@ impl Study for Catalogue {
             size: self.particles.get(),
         };
         let yardstick = tools.yardstick;
-        let (yardstick, level) = yardstick.levelled(&case.work.target, &self.yardstick(), Some(sets))?;
+        let (yardstick, level) = yardstick.levelled(&case.work.target, &self.yardstick(), Some(sets), row)?;
         row.set("sliced_level", level);
-        if let Some(known) = yardstick.reference_error() {
-            row.set("reference_size", known.effective_size);
-            row.set("reference_mean_error", known.mean);
-            row.set("reference_deviation_error", known.deviation);
-        }
         case.work.run(row, yardstick, tools.observer)
     }
 }

@@ -16,7 +16,7 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
 
     let told: Vec<Row> = rows.iter().map(|row| told(study, &targets, row)).collect();
     let rows: &Rows<'_> = &told.iter().collect();
-    let judged = rows.with("method", study.judged());
+    let judged = rows.held().with("method", study.judged());
     page.part("Requirements", &[("judged", &study.judged())]);
     let line = |Requirement { class, bound }: Requirement| {
         let here = Line::from(judged.with("class", class)).with("class", class);
@@ -24,10 +24,8 @@ pub fn report(study: &Catalogue, rows: &Rows<'_>, directory: &StudyDirectory) ->
     };
     let starts = [each("start", &study.starts)];
     page.lines_over("Requirements", &starts, Requirement::ALL.map(line));
-    let sampled = rows.having(|row| row.number("reference_size").is_some());
-    if !sampled.is_empty() {
-        page.section("References", &[], sampled.lines("target", sampled.words("target")));
-    }
+    rows.references(&mut page);
+    let rows: &Rows<'_> = &rows.held();
     for start in &study.starts {
         page.heading(&format!("From {start}"));
         start_table(study, &targets, &start.runs(rows), &mut page);

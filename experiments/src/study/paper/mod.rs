@@ -26,7 +26,8 @@ impl Study for Paper {
     const KIND: &'static str = "paper";
     const COLUMNS: &'static str = "case method variant target dim material schedule score volumes friction spacing time_step steps particles \
          seed status reason failed_step message energy_level start_energy final_energy final_sliced final_mean final_deviation final_mass \
-         best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds";
+         best_step best_energy best_sliced evaluations active_nodes storage_bytes wall_seconds \
+         reference_size reference_mean_error reference_deviation_error";
     const REPORT: Report<Self> = report::report;
 
     fn cases(&self) -> Result<Vec<Case<Setting>>, CommandError> {
@@ -35,7 +36,7 @@ impl Study for Paper {
 
     fn run(&self, case: &Case<Setting>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
         let (setting, is_body) = (&case.work, case.work.rival.is_none());
-        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick())?;
+        let yardstick = tools.yardstick.of(&setting.target, &self.yardstick(), row)?;
         let mut run = Run::new(setting.particles.get(), setting.seed);
         row.set("energy_level", yardstick.mean_distance() / run.particles as f64);
         (run.start.mean, run.start.standard_deviation) = (self.start_mean, self.start_sd);

@@ -10,7 +10,8 @@ use crate::study::prelude::*;
 
 /// Tables and figures.
 pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Result<Page, CommandError> {
-    let findings = Findings::new(study, rows)?;
+    let held = rows.held();
+    let findings = Findings::new(study, &held)?;
     let mut page = directory.page(include_str!("report.md"), &[]);
     page.section("Failures", &[], findings.bodies.lines_of(["variant", "method"]));
     page.part("Ties and losses", &[("tie", &TIE)]);
@@ -36,8 +37,9 @@ pub fn report(study: &Paper, rows: &Rows<'_>, directory: &StudyDirectory) -> Res
             page.lines("settings", settings(rows));
         }
     }
-    let good = rows.count(|row| !is_rival(row) && is_good(row));
-    let page = rows.tell([Status::Diverged], page.with("cases", rows.len()));
+    rows.references(&mut page);
+    let good = held.count(|row| !is_rival(row) && is_good(row));
+    let page = rows.tell([Status::Diverged, Status::NoReference], page.with("cases", rows.len()));
     Ok(page.with("as_good_as_independent", good))
 }
 

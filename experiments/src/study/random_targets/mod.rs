@@ -90,7 +90,7 @@ impl Study for RandomTargets {
         // In standard deviations per axis; the sliced distance is not looked at.
         let options =
             YardstickOptions::of_energy(self.reference_points.get(), self.reference_seed, Coordinates::Scaled);
-        let yardstick = tools.yardstick.of(&case.work.target, &options)?;
+        let yardstick = tools.yardstick.of(&case.work.target, &options, row)?;
         row.set("energy_level", yardstick.mean_distance() / self.particles.get() as f64);
         if let Some(outcome) = row.note(self.sampled(&case.work, tools.observer))? {
             row.measured(yardstick.measure(&outcome.particles))?;

@@ -50,7 +50,8 @@ impl Study for TimeError {
 
     const KIND: &'static str = "time-error";
     const COLUMNS: &'static str = "case status note target dim method particles steps seed score_evaluations density_evaluations \
-         wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual outcome";
+         wall_seconds energy_distance_squared energy_level sliced_wasserstein mean_error deviation_error mass_error residual outcome \
+         reference_size reference_mean_error reference_deviation_error";
     const REPORT: Report<Self> = report::report;
 
     /// The cases, target by target, so that a target's reference is made once.
@@ -78,7 +79,7 @@ impl Study for TimeError {
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
-        let yardstick = tools.yardstick.of(&case.work.target, &self.yardstick())?;
+        let yardstick = tools.yardstick.of(&case.work.target, &self.yardstick(), row)?;
         case.work.run(row, yardstick, tools.observer)?;
         if case.work.draws_from(yardstick) && row.finished() {
             row.set("note", "drawn from the importance sample");

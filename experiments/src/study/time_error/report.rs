@@ -26,9 +26,11 @@ pub fn report(study: &TimeError, rows: &Rows<'_>, directory: &StudyDirectory) ->
     let which = study.steps.as_ref().map_or("", |_| " at the largest number of steps");
     page.heading(&format!("Errors{which}"));
     targets.iter().for_each(|target| target_table(study, target, &mut page));
-    paper_part(study, rows, &mut page);
+    paper_part(study, &rows.held(), &mut page);
+    rows.references(&mut page);
 
-    Ok(rows.tell([Status::Finished, Status::Diverged, Status::Unsupported], page))
+    let page = rows.tell([Status::Finished, Status::Diverged, Status::Unsupported], page);
+    Ok(rows.tell([Status::NoReference], page))
 }
 
 /// The runs of a method by their steps, from few to many; the method's own number, or draws, come first.

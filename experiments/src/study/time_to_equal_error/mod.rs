@@ -47,7 +47,8 @@ impl Study for TimeToEqualError {
 
     const KIND: &'static str = "time-to-equal-error";
     const COLUMNS: &'static str = "case ending reason target dim particles method mean_distance goal size score_evaluations \
-         density_evaluations energy_distance_squared wall_seconds wall_seconds_least wall_seconds_most missed_size wall_seconds_missed";
+         density_evaluations energy_distance_squared wall_seconds wall_seconds_least wall_seconds_most missed_size wall_seconds_missed \
+         reference_size reference_mean_error reference_deviation_error";
     const REPORT: Report<Self> = report::report;
 
     /// The cases: on every target and for every M the method first, then its rivals.
@@ -78,7 +79,7 @@ impl Study for TimeToEqualError {
         // The sliced distance is not looked at.
         let (points, seed) = (self.reference_points.get(), self.reference_seed);
         let options = YardstickOptions::of_energy(points, seed, Coordinates::Standardised);
-        let yardstick = tools.yardstick.of(&entry.target, &options)?;
+        let yardstick = tools.yardstick.of(&entry.target, &options, row)?;
         row.set("mean_distance", yardstick.mean_distance());
         let mut runs = Runs::of(entry, &self.seeds, yardstick, tools.observer, RUNS);
         if entry.index == 0 {

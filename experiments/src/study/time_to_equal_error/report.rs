@@ -26,13 +26,15 @@ pub fn report(study: &TimeToEqualError, rows: &Rows<'_>, directory: &StudyDirect
         let reasons = told.with("method", its).with("ending", Status::Unsupported);
         page.items(&reasons.iter().map(reason).collect::<Vec<_>>());
     }
+    rows.references(&mut page);
     page.heading("Figure");
     let plot = plot(study, rows, directory)?;
     page.drawing("time-to-equal-error.svg", multiples(&plot));
 
     let rivals = rows.having(|row| row.text("method") != own);
     let page = rivals.tell([Status::Reached, Status::OutOfTime], page);
-    Ok(rivals.tell([Status::OutOfSizes, Status::Unsupported], page))
+    let page = rivals.tell([Status::OutOfSizes, Status::Unsupported], page);
+    Ok(rivals.tell([Status::NoReference], page))
 }
 
 /// A line for every target with every M.

@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::TargetError;
@@ -13,6 +15,9 @@ const AHEAD: usize = 32;
 /// How long a program may take to end after its input has.
 const GRACE: Duration = Duration::from_secs(2);
 const LOOK: Duration = Duration::from_millis(5);
+
+/// Letters of a line that an error repeats.
+const SHOWN: usize = 80;
 
 /// What a program is asked about a point.
 #[derive(Clone, Copy)]
@@ -27,7 +32,8 @@ pub(super) struct Conversation {
     child: Child,
     /// Until the end, which tells the program to end as well.
     input: Option<ChildStdin>,
-    output: BufReader<ChildStdout>,
+    /// Until what is left in it is read.
+    output: Option<BufReader<ChildStdout>>,
     sent: String,
     line: String,
 }
@@ -67,7 +73,7 @@ impl Conversation {
             command: command.to_owned(),
             child,
             input: Some(input),
-            output: BufReader::new(output),
+            output: Some(BufReader::new(output)),
             sent: String::new(),
             line: String::new(),
         })
@@ -83,6 +89,7 @@ impl Conversation {
         let width = question.width(dimension);
         let mut answers = Vec::with_capacity(coordinates.len() / dimension * width);
         for points in coordinates.chunks(AHEAD * dimension) {
+            self.has_said_no_more()?;
             let points = points.chunks_exact(dimension);
             self.sent.clear();
             points.clone().for_each(|x| write_question(&mut self.sent, question, x));
@@ -110,7 +117,8 @@ impl Conversation {
     /// The numbers of the next line.
     fn read(&mut self, question: Question, x: &[f64], numbers: &mut Vec<f64>) -> Result<(), TargetError> {
         self.line.clear();
-        match self.output.read_line(&mut self.line) {
+        let output = self.output.as_mut();
+        match output.map_or(Ok(0), |output| output.read_line(&mut self.line)) {
             Ok(length) if length > 0 => {}
             Ok(_) => return Err(self.silent(question, x)),
             Err(error) => return Err(self.misunderstood(question, x, &format!("what cannot be read ({error})"))),
@@ -128,6 +136,43 @@ impl Conversation {
             }
         }
         Ok(())
+    }
+
+    /// Refuses what has come with answers and is none: it would be taken for the answer to the next question, and that for the one after. What the program has not sent yet, or what was
+    /// not read with an answer, is found later, at the [end](Self::close).
+    fn has_said_no_more(&self) -> Result<(), TargetError> {
+        let left = self.output.as_ref().map_or(&[][..], BufReader::buffer);
+        if left.is_empty() {
+            return Ok(());
+        }
+        Err(self.said_too_much(left))
+    }
+
+    fn said_too_much(&self, left: &[u8]) -> TargetError {
+        let line = left.split(|&byte| byte == b'\n').next().unwrap_or_default();
+        let line: String = String::from_utf8_lossy(line).trim().chars().take(SHOWN).collect();
+        let reason = format!("prints '{line}' beside its answers, which are one line for every question");
+        failed(&self.command, reason)
+    }
+
+    /// Ends the program. What it has printed and nobody has read is an error.
+    pub fn close(mut self) -> Result<(), TargetError> {
+        let Some(mut output) = self.output.take() else {
+            return Ok(());
+        };
+        drop(self.input.take());
+        // What the program has started may keep its output open.
+        let (sender, receiver) = mpsc::channel();
+        thread::spawn(move || {
+            let mut line = Vec::new();
+            let _ = output.read_until(b'\n', &mut line);
+            let _ = sender.send(line);
+        });
+        self.end();
+        match receiver.recv_timeout(GRACE) {
+            Ok(line) if !line.is_empty() => Err(self.said_too_much(&line)),
+            _ => Ok(()),
+        }
     }
 
     fn misunderstood(&self, question: Question, x: &[f64], what: &str) -> TargetError {

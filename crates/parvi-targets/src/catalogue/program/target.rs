@@ -15,7 +15,8 @@ use crate::{CatalogueTarget, FiniteDifferenceScore, Frame, Target, TargetError};
 /// Numbers are decimal, with a space between them; answers may have commas. The program has to send every answer at once (flush its output) and to end when its input does; what it prints as errors is shown.
 /// As many run side by side as there are threads, and which one is asked is left to chance, so the same question must have the same answer.
 ///
-/// Where a program fails, every value from then on is NaN, and [`fault`](CatalogueTarget::fault) says how.
+/// Where a program fails, every value from then on is NaN, and [`fault`](CatalogueTarget::fault) says how. It also ends the programs, the next question starts one anew, since only at the end it is
+/// certain that a program has printed one line for every question: one too many is a failure, for it shifts all answers after it.
 pub struct ProgramTarget<const D: usize> {
     command: String,
     /// Programs that are not being asked.
@@ -127,6 +128,12 @@ impl<const D: usize> CatalogueTarget<D> for ProgramTarget<D> {
     }
 
     fn fault(&self) -> Option<TargetError> {
+        let idle = std::mem::take(&mut *self.idle.lock().unwrap_or_else(PoisonError::into_inner));
+        for program in idle {
+            if let Err(fault) = program.close() {
+                let _ = self.fault.set(fault);
+            }
+        }
         self.fault.get().cloned()
     }
 }
