@@ -1,10 +1,16 @@
 //! Tensor-product splines whose degree is known at run time only: compiled once per dimension, for dimensions in which a stencil has so
 //! many nodes that nobody computes with them for speed.
 
-use mpm_kernels::{Cubic, Entry, Linear, Quadratic, Row, Spline, UniformGrid};
+mod numbers;
 
+use mpm_kernels::{
+    Cubic, Deposit, Entry, Interpolated, Linear, NodeField, Quadratic, Row, Spline, UniformGrid, Wanted,
+};
+use mpm_tensor::vector::multiply_add;
+
+use self::numbers::NodeNumbers;
+use crate::basis::Member;
 use crate::basis::{check_placement, placed_grid};
-use crate::key_map::KeyMap;
 use crate::{Basis, MpmError, Schedule, UniformBasis};
 
 /// Nodes per axis of the widest spline.
@@ -34,12 +40,12 @@ struct Rows<const D: usize> {
 }
 
 /// The nodes {origin + h i : i ∈ ℤᴰ} with the shape functions of [`SplineGrid`](crate::SplineGrid), by a loop over the Wᴰ nodes of a particle.
-/// Every particle is a cell of its own; nodes are found by hashing.
+/// Every particle is a cell of its own; nodes are found by their places in the box around them all, or by hashing where that is large.
 #[derive(Clone, Debug)]
 pub struct ProductGrid<const D: usize> {
     degree: SplineDegree,
     nodes: UniformGrid<D>,
-    map: KeyMap<[i32; D]>,
+    numbers: NodeNumbers<D>,
     /// The first node of every particle.
     bases: Vec<[i32; D]>,
     /// The node numbers of every particle, where they are stored.
@@ -57,7 +63,7 @@ impl<const D: usize> ProductGrid<D> {
         Ok(Self {
             degree,
             nodes: UniformGrid::new(origin, h),
-            map: KeyMap::default(),
+            numbers: NodeNumbers::default(),
             bases: Vec::new(),
             stencils: Vec::new(),
             schedule: Schedule::default(),
@@ -103,6 +109,36 @@ impl<const D: usize> ProductGrid<D> {
         rows
     }
 
+    /// Visit the rows of a stencil along the last axis: the place of the first node, and Π_a N_a, its gradient and the offset over the other axes, by products over the leading ones, of which
+    /// only those that changed are taken again.
+    #[inline(always)]
+    fn for_each_row(&self, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>, &Rows<D>)) {
+        let (h, width, rows) = (self.spacing(), self.width(), self.rows(x));
+        let one = Entry {
+            weight: 1.0,
+            gradient: [0.0; D],
+            offset: [0.0; D],
+        };
+        // The first level is that of no axis.
+        let (mut levels, mut place, mut changed) = ([one; D], [0; D], 0);
+        for row in 0..width.pow(D as u32 - 1) {
+            for a in changed..D - 1 {
+                let j = place[a] as usize;
+                let (weight, derivative) = (rows.weights[a][j], rows.derivatives[a][j]);
+                let mut entry = levels[a];
+                for b in 0..a {
+                    entry.gradient[b] *= weight;
+                }
+                entry.gradient[a] = entry.weight * derivative;
+                entry.weight *= weight;
+                entry.offset[a] = rows.offsets[a] + h * f64::from(place[a]);
+                levels[a + 1] = entry;
+            }
+            visit(row * width, &levels[D - 1], &rows);
+            changed = advance(&mut place[..D - 1], width as i32);
+        }
+    }
+
     /// The nodes of the stencil that begins at `base`, the last axis fastest.
     fn stencil(&self, base: [i32; D]) -> impl Iterator<Item = [i32; D]> {
         let width = self.width() as i32;
@@ -133,8 +169,8 @@ impl<const D: usize> Rows<D> {
 }
 
 /// The next place of a stencil, the last axis fastest; returns the first axis that changed.
-fn advance<const D: usize>(place: &mut [i32; D], width: i32) -> usize {
-    for a in (0..D).rev() {
+fn advance(place: &mut [i32], width: i32) -> usize {
+    for a in (0..place.len()).rev() {
         place[a] += 1;
         if place[a] < width {
             return a;
@@ -170,30 +206,41 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     fn activate(&mut self, sorted: &[[f64; D]]) -> Result<(), MpmError> {
         let size = self.stencil_size();
         let stored = sorted.len().saturating_mul(size) <= MOST_STORED;
-        let mut map = std::mem::take(&mut self.map);
+        let mut numbers = std::mem::take(&mut self.numbers);
         let mut stencils = std::mem::take(&mut self.stencils);
-        map.clear();
+        numbers.clear(&self.bases, self.width());
         stencils.clear();
+        let offsets = match (&numbers, self.bases.first()) {
+            (NodeNumbers::Boxed(own), Some(&base)) => own.offsets(&base, self.stencil(base)),
+            _ => Vec::new(),
+        };
         self.schedule.cut(size);
         for part in 0..self.schedule.parts.len() {
             let (mut low, mut high) = (u32::MAX, 0);
-            for particle in self.schedule.parts[part].cells.clone() {
-                for node in self.stencil(self.bases[particle]) {
-                    let number = map.number(node);
-                    (low, high) = (low.min(number), high.max(number));
-                    if stored {
-                        stencils.push(number);
-                    }
+            let mut meet = |number: u32| {
+                (low, high) = (low.min(number), high.max(number));
+                if stored {
+                    stencils.push(number);
                 }
-                if map.keys().len() > u32::MAX as usize - size {
-                    let nodes = map.keys().len() as u64;
+            };
+            for particle in self.schedule.parts[part].cells.clone() {
+                let base = self.bases[particle];
+                match &mut numbers {
+                    NodeNumbers::Boxed(own) => {
+                        let first = own.place(&base);
+                        offsets.iter().for_each(|offset| meet(own.number(first + offset)));
+                    }
+                    NodeNumbers::Hashed(map) => self.stencil(base).for_each(|node| meet(map.number(node))),
+                }
+                if numbers.len() > u32::MAX as usize - size {
+                    let nodes = numbers.len() as u64;
                     return Err(MpmError::TooManyNodes { nodes });
                 }
             }
             self.schedule.parts[part].nodes = low as usize..high as usize + 1;
         }
-        (self.map, self.stencils) = (map, stencils);
-        self.schedule.join(self.map.keys().len());
+        (self.numbers, self.stencils) = (numbers, stencils);
+        self.schedule.join(self.numbers.len());
         Ok(())
     }
 
@@ -202,12 +249,12 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     }
 
     fn node_count(&self) -> usize {
-        self.map.keys().len()
+        self.numbers.len()
     }
 
     fn node_positions(&self, out: &mut Vec<[f64; D]>) {
         out.clear();
-        out.extend(self.map.keys().iter().map(|node| self.nodes.node_position(node)));
+        out.extend(self.numbers.nodes().map(|node| self.nodes.node_position(&node)));
     }
 
     fn spacing(&self) -> f64 {
@@ -225,37 +272,93 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
         }
         scratch.clear();
         let numbers = self.stencil(self.bases[cell]);
-        scratch.extend(numbers.map(|node| self.map.find(node).unwrap_or(crate::NO_NODE)));
+        scratch.extend(numbers.map(|node| self.numbers.find(&node).unwrap_or(crate::NO_NODE)));
         scratch
     }
 
-    /// w = Π_a N_a and ∂w/∂x_a = N′_a Π_{b≠a} N_b by products over the leading axes, of which only those that changed are taken again.
+    /// In a row along the last axis weight and gradient of a node are those of the row times N, but for ∂w/∂x_D.
     #[inline]
     fn for_each_node(&self, _: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
-        let (h, width, rows) = (self.spacing(), self.width() as i32, self.rows(x));
-        let one = Entry {
-            weight: 1.0,
-            gradient: [0.0; D],
-            offset: [0.0; D],
-        };
-        let (mut levels, mut place, mut changed) = ([one; D], [0; D], 0);
-        for index in 0..self.stencil_size() {
-            for a in changed..D {
-                let before = if a == 0 { one } else { levels[a - 1] };
-                let j = place[a] as usize;
-                let (weight, derivative) = (rows.weights[a][j], rows.derivatives[a][j]);
-                let mut entry = before;
-                for b in 0..a {
-                    entry.gradient[b] *= weight;
+        let (h, last) = (self.spacing(), D - 1);
+        self.for_each_row(x, |first, row, rows| {
+            let mut entry = *row;
+            for j in 0..self.width() {
+                let (weight, derivative) = (rows.weights[last][j], rows.derivatives[last][j]);
+                for a in 0..last {
+                    entry.gradient[a] = row.gradient[a] * weight;
                 }
-                entry.gradient[a] = before.weight * derivative;
-                entry.weight = before.weight * weight;
-                entry.offset[a] = rows.offsets[a] + h * f64::from(place[a]);
-                levels[a] = entry;
+                entry.gradient[last] = row.weight * derivative;
+                entry.weight = row.weight * weight;
+                entry.offset[last] = rows.offsets[last] + h * j as f64;
+                visit(first + j, &entry);
             }
-            visit(index, &levels[D - 1]);
-            changed = advance(&mut place, width);
+        });
+    }
+
+    #[inline]
+    fn for_each_deposit(
+        &self,
+        _: usize,
+        x: &[f64; D],
+        value: &Deposit<D>,
+        scale: f64,
+        mut visit: impl FnMut(usize, f64, &Deposit<D>),
+    ) {
+        let last = D - 1;
+        self.for_each_row(x, |first, row, rows| {
+            let gradient = Deposit {
+                scalar: 0.0,
+                vector: row.gradient,
+            };
+            let of_row = value.combine(row.weight, &gradient, scale);
+            for j in 0..self.width() {
+                let weight = rows.weights[last][j];
+                let mut deposit = Deposit::ZERO.combine(0.0, &of_row, weight);
+                deposit.vector[last] += scale * row.weight * rows.derivatives[last][j];
+                visit(first + j, row.weight * weight, &deposit);
+            }
+        });
+    }
+
+    #[inline]
+    fn interpolate(
+        &self,
+        Member { particle, x, .. }: Member<(), D>,
+        wanted: Wanted,
+        nodes: &impl NodeField<D>,
+    ) -> Interpolated<D> {
+        if wanted.moment || wanted.least_squares {
+            return self.interpolate_node_by_node((particle, x), wanted, nodes);
         }
+        let (mut sum, last) = (Interpolated::ZERO, D - 1);
+        self.for_each_row(x, |first, row, rows| {
+            // Σ N v and Σ N′ v along the row.
+            let (mut value, mut slope) = ([0.0; D], [0.0; D]);
+            for j in 0..self.width() {
+                let v = nodes.vector(first + j);
+                for a in 0..D {
+                    value[a] = multiply_add(rows.weights[last][j], v[a], value[a]);
+                }
+                if wanted.gradient {
+                    for a in 0..D {
+                        slope[a] = multiply_add(rows.derivatives[last][j], v[a], slope[a]);
+                    }
+                }
+            }
+            for a in 0..D {
+                sum.value[a] = multiply_add(row.weight, value[a], sum.value[a]);
+            }
+            if wanted.gradient {
+                let gradient = &mut sum.gradient.0;
+                for a in 0..D {
+                    for b in 0..last {
+                        gradient[a][b] = multiply_add(value[a], row.gradient[b], gradient[a][b]);
+                    }
+                    gradient[a][last] = multiply_add(slope[a], row.weight, gradient[a][last]);
+                }
+            }
+        });
+        sum
     }
 
     fn affine_direction(&self, _: usize, _: &[f64; D], entry: &Entry<D>) -> [f64; D] {
@@ -267,7 +370,7 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     }
 
     fn storage_bytes(&self) -> usize {
-        self.map.storage_bytes()
+        self.numbers.storage_bytes()
             + self.bases.capacity() * size_of::<[i32; D]>()
             + self.stencils.capacity() * 4
             + self.schedule.storage_bytes()
