@@ -4,8 +4,10 @@
 mod numbers;
 
 use mpm_kernels::{
-    Cubic, Deposit, Entry, Interpolated, Linear, NodeField, Quadratic, Row, Spline, UniformGrid, Wanted,
+    Columns, Cubic, Deposit, Entry, Interpolated, Linear, NodeField, NodeSink, Quadratic, Row, Spline, UniformGrid,
+    Wanted,
 };
+use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
 use self::numbers::NodeNumbers;
@@ -85,6 +87,12 @@ impl<const D: usize> ProductGrid<D> {
             SplineDegree::Quadratic => Some(0.25),
             SplineDegree::Cubic => Some(1.0 / 3.0),
         }
+    }
+
+    /// Of D_p, per area.
+    fn inverse_second_moment(&self) -> Option<f64> {
+        let h = self.nodes.spacing();
+        self.second_moment().map(|moment| 1.0 / (moment * h * h))
     }
 
     fn first_node(&self, x: &[f64; D]) -> Option<[i32; D]> {
@@ -178,6 +186,27 @@ fn advance(place: &mut [i32], width: i32) -> usize {
         place[a] = 0;
     }
     0
+}
+
+/// `sum` ← `sum` + `scale` `vector`.
+#[inline(always)]
+fn add_scaled<const D: usize>(sum: &mut [f64; D], scale: f64, vector: Option<[f64; D]>) {
+    if let Some(vector) = vector {
+        for a in 0..D {
+            sum[a] = multiply_add(scale, vector[a], sum[a]);
+        }
+    }
+}
+
+/// Σ v g^T over the nodes of a row: `value` g^T but for the last column.
+#[inline(always)]
+fn add_row<const D: usize>(sum: &mut Matrix<D>, value: &[f64; D], factors: &[f64; D], last: &[f64; D]) {
+    for a in 0..D {
+        for b in 0..D - 1 {
+            sum.0[a][b] = multiply_add(value[a], factors[b], sum.0[a][b]);
+        }
+        sum.0[a][D - 1] += last[a];
+    }
 }
 
 impl<const D: usize> Basis<D> for ProductGrid<D> {
@@ -321,52 +350,93 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     }
 
     #[inline]
+    fn deposit<A: Columns<D>, S: Columns<D>>(
+        &self,
+        Member { x, .. }: Member<(), D>,
+        value: &Deposit<D>,
+        affine: &A,
+        flux: &S,
+        sink: &mut impl NodeSink<D>,
+    ) {
+        let (h, last, inverse) = (self.spacing(), D - 1, self.inverse_second_moment());
+        self.for_each_row(x, |first, row, rows| {
+            let mut of_row = value.combine(row.weight, &Deposit::ZERO, 0.0);
+            for a in 0..last {
+                let direction = inverse.map_or(row.gradient[a], |inverse| row.weight * row.offset[a] * inverse);
+                for (column, scale) in [(affine.column(a), direction), (flux.column(a), row.gradient[a])] {
+                    add_scaled(&mut of_row.vector, scale, column);
+                }
+            }
+            // What goes with N r and with N′ along the row.
+            let (mut tilt, mut slope) = ([0.0; D], [0.0; D]);
+            match inverse {
+                Some(inverse) => add_scaled(&mut tilt, row.weight * inverse, affine.column(last)),
+                None => add_scaled(&mut slope, row.weight, affine.column(last)),
+            }
+            add_scaled(&mut slope, row.weight, flux.column(last));
+            for j in 0..self.width() {
+                let (weight, derivative) = (rows.weights[last][j], rows.derivatives[last][j]);
+                let reach = weight * (rows.offsets[last] + h * j as f64);
+                let mut deposit = Deposit::ZERO.combine(0.0, &of_row, weight);
+                for a in 0..D {
+                    let along = multiply_add(reach, tilt[a], derivative * slope[a]);
+                    deposit.vector[a] += along;
+                }
+                sink.add(first + j, &deposit);
+            }
+        });
+    }
+
+    #[inline]
     fn interpolate(
         &self,
-        Member { particle, x, .. }: Member<(), D>,
+        Member { x, .. }: Member<(), D>,
         wanted: Wanted,
         nodes: &impl NodeField<D>,
     ) -> Interpolated<D> {
-        if wanted.moment || wanted.least_squares {
-            return self.interpolate_node_by_node((particle, x), wanted, nodes);
-        }
-        let (mut sum, last) = (Interpolated::ZERO, D - 1);
+        let (mut sum, h, last) = (Interpolated::ZERO, self.spacing(), D - 1);
+        let by_moment = self
+            .inverse_second_moment()
+            .filter(|_| wanted.gradient && wanted.least_squares);
+        let with_slope = wanted.gradient && by_moment.is_none();
+        let with_moment = wanted.moment || by_moment.is_some();
         self.for_each_row(x, |first, row, rows| {
-            // Σ N v and Σ N′ v along the row.
-            let (mut value, mut slope) = ([0.0; D], [0.0; D]);
+            // Σ N v, Σ N′ v and Σ N r v along the row.
+            let (mut value, mut slope, mut reach) = ([0.0; D], [0.0; D], [0.0; D]);
             for j in 0..self.width() {
-                let v = nodes.vector(first + j);
-                for a in 0..D {
-                    value[a] = multiply_add(rows.weights[last][j], v[a], value[a]);
+                let (v, weight) = (nodes.vector(first + j), rows.weights[last][j]);
+                add_scaled(&mut value, weight, Some(v));
+                if with_slope {
+                    add_scaled(&mut slope, rows.derivatives[last][j], Some(v));
                 }
-                if wanted.gradient {
-                    for a in 0..D {
-                        slope[a] = multiply_add(rows.derivatives[last][j], v[a], slope[a]);
-                    }
+                if with_moment {
+                    add_scaled(&mut reach, weight * (rows.offsets[last] + h * j as f64), Some(v));
                 }
             }
-            for a in 0..D {
-                sum.value[a] = multiply_add(row.weight, value[a], sum.value[a]);
+            add_scaled(&mut sum.value, row.weight, Some(value));
+            if with_slope {
+                let slope = slope.map(|c| row.weight * c);
+                add_row(&mut sum.gradient, &value, &row.gradient, &slope);
             }
-            if wanted.gradient {
-                let gradient = &mut sum.gradient.0;
-                for a in 0..D {
-                    for b in 0..last {
-                        gradient[a][b] = multiply_add(value[a], row.gradient[b], gradient[a][b]);
-                    }
-                    gradient[a][last] = multiply_add(slope[a], row.weight, gradient[a][last]);
-                }
+            if with_moment {
+                let offsets = row.offset.map(|r| row.weight * r);
+                let reach = reach.map(|c| row.weight * c);
+                add_row(&mut sum.moment, &value, &offsets, &reach);
             }
         });
+        if let Some(inverse) = by_moment {
+            sum.gradient = sum.moment * inverse;
+        }
+        if !wanted.moment {
+            sum.moment = Matrix::ZERO;
+        }
         sum
     }
 
     fn affine_direction(&self, _: usize, _: &[f64; D], entry: &Entry<D>) -> [f64; D] {
-        let h = self.spacing();
-        match self.second_moment() {
-            None => entry.gradient,
-            Some(moment) => entry.offset.map(|r| entry.weight * r / (moment * h * h)),
-        }
+        self.inverse_second_moment().map_or(entry.gradient, |inverse| {
+            entry.offset.map(|r| entry.weight * r * inverse)
+        })
     }
 
     fn storage_bytes(&self) -> usize {

@@ -69,14 +69,13 @@ pub fn counted(count: usize, many: &str) -> String {
     format!("{count} {}", one.map_or(many, |(_, one)| one))
 }
 
-/// A text that Markdown shows as it is.
+/// A text that Markdown shows as it is within a line: without `<` before it `>` closes nothing.
 pub fn escaped(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
             '&' => shown.push_str("&amp;"),
             '<' => shown.push_str("&lt;"),
-            '>' => shown.push_str("&gt;"),
             '*' | '`' | '[' | ']' | '\\' | '~' => shown.extend(['\\', character]),
             _ => shown.push(character),
         }
