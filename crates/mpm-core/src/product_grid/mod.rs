@@ -1,45 +1,22 @@
 //! Tensor-product splines whose degree is known at run time only: compiled once per dimension, for dimensions in which a stencil has so
 //! many nodes that nobody computes with them for speed.
 
+mod degree;
 mod numbers;
+mod rows;
 
-use mpm_kernels::{
-    Columns, Cubic, Deposit, Entry, Interpolated, Linear, NodeField, NodeSink, Quadratic, Row, Spline, UniformGrid,
-    Wanted,
-};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, UniformGrid, Wanted};
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
+pub use self::degree::SplineDegree;
 use self::numbers::NodeNumbers;
-use crate::basis::Member;
-use crate::basis::{check_placement, placed_grid};
+use self::rows::{Rows, add_row, add_scaled, advance};
+use crate::basis::{Member, check_placement, placed_grid};
 use crate::{Basis, MpmError, Schedule, UniformBasis};
-
-/// Nodes per axis of the widest spline.
-const WIDEST: usize = 4;
 
 /// Node numbers that are stored, at most; beyond, they are looked up whenever they are asked for.
 const MOST_STORED: usize = 1 << 26;
-
-/// Which spline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SplineDegree {
-    /// [`Linear`], two nodes per axis.
-    Linear,
-    /// [`Quadratic`], three.
-    Quadratic,
-    /// [`Cubic`], four.
-    Cubic,
-}
-
-/// What a particle knows along every axis.
-struct Rows<const D: usize> {
-    weights: [[f64; WIDEST]; D],
-    /// Per unit of length.
-    derivatives: [[f64; WIDEST]; D],
-    /// Positions of the first nodes less that of the particle.
-    offsets: [f64; D],
-}
 
 /// The nodes {origin + h i : i ∈ ℤᴰ} with the shape functions of [`SplineGrid`](crate::SplineGrid), by a loop over the Wᴰ nodes of a particle.
 /// Every particle is a cell of its own; nodes are found by their places in the box around them all, or by hashing where that is large.
@@ -73,78 +50,17 @@ impl<const D: usize> ProductGrid<D> {
     }
 
     fn width(&self) -> usize {
-        match self.degree {
-            SplineDegree::Linear => 2,
-            SplineDegree::Quadratic => 3,
-            SplineDegree::Cubic => 4,
-        }
+        self.degree.width()
     }
 
-    /// D_p over h² I; `None` where ∇w_ip stands for w_ip D_p⁻¹ (x_i − x_p).
-    fn second_moment(&self) -> Option<f64> {
-        match self.degree {
-            SplineDegree::Linear => None,
-            SplineDegree::Quadratic => Some(0.25),
-            SplineDegree::Cubic => Some(1.0 / 3.0),
-        }
-    }
-
-    /// Of D_p, per area.
+    /// Of D_p, per area; `None` where ∇w_ip stands for w_ip D_p⁻¹ (x_i − x_p).
     fn inverse_second_moment(&self) -> Option<f64> {
         let h = self.nodes.spacing();
-        self.second_moment().map(|moment| 1.0 / (moment * h * h))
-    }
-
-    fn first_node(&self, x: &[f64; D]) -> Option<[i32; D]> {
-        match self.degree {
-            SplineDegree::Linear => self.nodes.first_node::<Linear, 2>(x),
-            SplineDegree::Quadratic => self.nodes.first_node::<Quadratic, 3>(x),
-            SplineDegree::Cubic => self.nodes.first_node::<Cubic, 4>(x),
-        }
+        self.degree.second_moment().map(|moment| 1.0 / (moment * h * h))
     }
 
     fn rows(&self, x: &[f64; D]) -> Rows<D> {
-        let (h, mut rows) = (self.nodes.spacing(), Rows::NONE);
-        for a in 0..D {
-            let u = self.nodes.coordinate(x, a);
-            let base = match self.degree {
-                SplineDegree::Linear => rows.take(a, &Linear.row(u), h),
-                SplineDegree::Quadratic => rows.take(a, &Quadratic.row(u), h),
-                SplineDegree::Cubic => rows.take(a, &Cubic.row(u), h),
-            };
-            rows.offsets[a] = h * (base as f64 - u);
-        }
-        rows
-    }
-
-    /// Visit the rows of a stencil along the last axis: the place of the first node, and Π_a N_a, its gradient and the offset over the other axes, by products over the leading ones, of which
-    /// only those that changed are taken again.
-    #[inline(always)]
-    fn for_each_row(&self, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>, &Rows<D>)) {
-        let (h, width, rows) = (self.spacing(), self.width(), self.rows(x));
-        let one = Entry {
-            weight: 1.0,
-            gradient: [0.0; D],
-            offset: [0.0; D],
-        };
-        // The first level is that of no axis.
-        let (mut levels, mut place, mut changed) = ([one; D], [0; D], 0);
-        for row in 0..width.pow(D as u32 - 1) {
-            for a in changed..D - 1 {
-                let j = place[a] as usize;
-                let (weight, derivative) = (rows.weights[a][j], rows.derivatives[a][j]);
-                let mut entry = levels[a];
-                for b in 0..a {
-                    entry.gradient[b] *= weight;
-                }
-                entry.gradient[a] = entry.weight * derivative;
-                entry.weight *= weight;
-                entry.offset[a] = rows.offsets[a] + h * f64::from(place[a]);
-                levels[a + 1] = entry;
-            }
-            visit(row * width, &levels[D - 1], &rows);
-            changed = advance(&mut place[..D - 1], width as i32);
-        }
+        Rows::of(self.degree, &self.nodes, x)
     }
 
     /// The nodes of the stencil that begins at `base`, the last axis fastest.
@@ -159,56 +75,6 @@ impl<const D: usize> ProductGrid<D> {
     }
 }
 
-impl<const D: usize> Rows<D> {
-    const NONE: Self = Self {
-        weights: [[0.0; WIDEST]; D],
-        derivatives: [[0.0; WIDEST]; D],
-        offsets: [0.0; D],
-    };
-
-    /// Take over the row along an axis; returns its first node.
-    fn take<const W: usize>(&mut self, axis: usize, row: &Row<W>, h: f64) -> i64 {
-        for j in 0..W {
-            self.weights[axis][j] = row.weights[j];
-            self.derivatives[axis][j] = row.derivatives[j] / h;
-        }
-        row.base
-    }
-}
-
-/// The next place of a stencil, the last axis fastest; returns the first axis that changed.
-fn advance(place: &mut [i32], width: i32) -> usize {
-    for a in (0..place.len()).rev() {
-        place[a] += 1;
-        if place[a] < width {
-            return a;
-        }
-        place[a] = 0;
-    }
-    0
-}
-
-/// `sum` ← `sum` + `scale` `vector`.
-#[inline(always)]
-fn add_scaled<const D: usize>(sum: &mut [f64; D], scale: f64, vector: Option<[f64; D]>) {
-    if let Some(vector) = vector {
-        for a in 0..D {
-            sum[a] = multiply_add(scale, vector[a], sum[a]);
-        }
-    }
-}
-
-/// Σ v g^T over the nodes of a row: `value` g^T but for the last column.
-#[inline(always)]
-fn add_row<const D: usize>(sum: &mut Matrix<D>, value: &[f64; D], factors: &[f64; D], last: &[f64; D]) {
-    for a in 0..D {
-        for b in 0..D - 1 {
-            sum.0[a][b] = multiply_add(value[a], factors[b], sum.0[a][b]);
-        }
-        sum.0[a][D - 1] += last[a];
-    }
-}
-
 impl<const D: usize> Basis<D> for ProductGrid<D> {
     const LONE_PARTICLES: bool = true;
     type Cell = ();
@@ -218,11 +84,14 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
         self.schedule.clear();
         self.bases.clear();
         for (particle, x) in positions.iter().enumerate() {
-            let base = self.first_node(x).ok_or_else(|| MpmError::PositionOutOfRange {
-                particle,
-                position: x.to_vec(),
-                spacing: self.nodes.spacing(),
-            })?;
+            let base = self
+                .degree
+                .first_node(&self.nodes, x)
+                .ok_or_else(|| MpmError::PositionOutOfRange {
+                    particle,
+                    position: x.to_vec(),
+                    spacing: self.nodes.spacing(),
+                })?;
             self.bases.push(base);
         }
         let count = positions.len() as u32;
@@ -308,8 +177,8 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     /// In a row along the last axis weight and gradient of a node are those of the row times N, but for ∂w/∂x_D.
     #[inline]
     fn for_each_node(&self, _: usize, x: &[f64; D], mut visit: impl FnMut(usize, &Entry<D>)) {
-        let (h, last) = (self.spacing(), D - 1);
-        self.for_each_row(x, |first, row, rows| {
+        let (h, last, rows) = (self.spacing(), D - 1, self.rows(x));
+        rows.for_each(|first, row| {
             let mut entry = *row;
             for j in 0..self.width() {
                 let (weight, derivative) = (rows.weights[last][j], rows.derivatives[last][j]);
@@ -333,8 +202,8 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
         scale: f64,
         mut visit: impl FnMut(usize, f64, &Deposit<D>),
     ) {
-        let last = D - 1;
-        self.for_each_row(x, |first, row, rows| {
+        let (last, rows) = (D - 1, self.rows(x));
+        rows.for_each(|first, row| {
             let gradient = Deposit {
                 scalar: 0.0,
                 vector: row.gradient,
@@ -359,7 +228,8 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
         sink: &mut impl NodeSink<D>,
     ) {
         let (h, last, inverse) = (self.spacing(), D - 1, self.inverse_second_moment());
-        self.for_each_row(x, |first, row, rows| {
+        let rows = self.rows(x);
+        rows.for_each(|first, row| {
             let mut of_row = value.combine(row.weight, &Deposit::ZERO, 0.0);
             for a in 0..last {
                 let direction = inverse.map_or(row.gradient[a], |inverse| row.weight * row.offset[a] * inverse);
@@ -400,7 +270,8 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
             .filter(|_| wanted.gradient && wanted.least_squares);
         let with_slope = wanted.gradient && by_moment.is_none();
         let with_moment = wanted.moment || by_moment.is_some();
-        self.for_each_row(x, |first, row, rows| {
+        let rows = self.rows(x);
+        rows.for_each(|first, row| {
             // Σ N v, Σ N′ v and Σ N r v along the row.
             let (mut value, mut slope, mut reach) = ([0.0; D], [0.0; D], [0.0; D]);
             for j in 0..self.width() {
