@@ -79,7 +79,7 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     const LONE_PARTICLES: bool = true;
     type Cell = ();
 
-    /// Particles stay in their order.
+    /// By first nodes, the last axis fastest.
     fn sort(&mut self, positions: &[[f64; D]]) -> Result<(), MpmError> {
         self.schedule.clear();
         self.bases.clear();
@@ -95,9 +95,16 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
             self.bases.push(base);
         }
         let count = positions.len() as u32;
+        self.schedule.keeps_order = self.bases.is_sorted();
         self.schedule.order.extend(0..count);
+        if !self.schedule.keeps_order {
+            self.schedule
+                .order
+                .sort_by_key(|&particle| self.bases[particle as usize]);
+            self.bases.sort_unstable();
+        }
         self.schedule.cell_starts.extend(0..=count);
-        (self.schedule.lone_particles, self.schedule.keeps_order) = (true, true);
+        self.schedule.lone_particles = true;
         Ok(())
     }
 
@@ -108,10 +115,11 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
         let mut stencils = std::mem::take(&mut self.stencils);
         numbers.clear(&self.bases, self.width());
         stencils.clear();
-        let offsets = match (&numbers, self.bases.first()) {
-            (NodeNumbers::Boxed(own), Some(&base)) => own.offsets(&base, self.stencil(base)),
-            _ => Vec::new(),
-        };
+        let mut offsets = Vec::new();
+        if let (NodeNumbers::Boxed(own), Some(&base)) = (&mut numbers, self.bases.first()) {
+            offsets = own.offsets(&base, self.stencil(base));
+            own.count(&self.bases, &offsets);
+        }
         self.schedule.cut(size);
         for part in 0..self.schedule.parts.len() {
             let (mut low, mut high) = (u32::MAX, 0);

@@ -1,4 +1,4 @@
-//! Numbers of the nodes that particles touch, in the order in which they are first met.
+//! Numbers of the nodes that particles touch: in the order of their places in a box, where near ones are near in memory, or in the order in which they are first met.
 
 use crate::NO_NODE;
 use crate::key_map::KeyMap;
@@ -123,15 +123,24 @@ impl<const D: usize> NodeBox<D> {
         stencil.map(|node| self.place(&node) - first).collect()
     }
 
-    /// The number of the node at a place; a new one if it has none yet.
-    #[inline(always)]
-    pub fn number(&mut self, place: usize) -> u32 {
-        let number = &mut self.numbers[place];
-        if *number == NO_NODE {
-            *number = self.places.len() as u32;
-            self.places.push(place as u32);
+    /// Number the nodes of the stencils that begin at `bases`.
+    pub fn count(&mut self, bases: &[[i32; D]], offsets: &[usize]) {
+        for base in bases {
+            let first = self.place(base);
+            offsets.iter().for_each(|offset| self.numbers[first + offset] = 0);
         }
-        *number
+        for (place, number) in self.numbers.iter_mut().enumerate() {
+            if *number != NO_NODE {
+                *number = self.places.len() as u32;
+                self.places.push(place as u32);
+            }
+        }
+    }
+
+    /// The number of the counted node at a place.
+    #[inline(always)]
+    pub fn number(&self, place: usize) -> u32 {
+        self.numbers[place]
     }
 }
 
@@ -140,23 +149,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_box_and_hashes_know_the_same_nodes() {
+    fn nodes_of_a_box_are_numbered_by_their_places() {
         let bases = [[3, -2], [4, -2], [3, 1], [5, 0]];
         let stencil = |base: [i32; 2]| (0..9).map(move |k| [base[0] + k / 3, base[1] + k % 3]);
         let mut boxed = NodeNumbers::<2>::default();
         boxed.clear(&bases, 3);
-        let mut map = KeyMap::default();
-        for base in bases {
-            let NodeNumbers::Boxed(own) = &mut boxed else {
-                panic!("a small box")
-            };
-            let (offsets, first) = (own.offsets(&base, stencil(base)), own.place(&base));
-            for (node, offset) in stencil(base).zip(offsets) {
-                assert_eq!(own.number(first + offset), map.number(node));
-            }
+        let NodeNumbers::Boxed(own) = &mut boxed else {
+            panic!("a small box")
+        };
+        let offsets = own.offsets(&bases[0], stencil(bases[0]));
+        own.count(&bases, &offsets);
+        let mut nodes: Vec<[i32; 2]> = bases.into_iter().flat_map(stencil).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        assert!(boxed.nodes().eq(nodes.iter().copied()) && boxed.len() == nodes.len());
+        for (number, node) in nodes.iter().enumerate() {
+            assert_eq!(boxed.find(node), Some(number as u32));
         }
-        assert!(boxed.nodes().eq(map.keys().iter().copied()) && boxed.len() == map.keys().len());
-        assert_eq!(boxed.find(&[3, -2]), Some(0));
+        assert_eq!(
+            boxed.find(&[3, 3]),
+            Some(nodes.iter().position(|node| *node == [3, 3]).expect("a node") as u32)
+        );
+        assert_eq!(boxed.find(&[7, -2]), None);
         boxed.clear(&[[0, 0], [i32::MAX / 2, i32::MIN / 2]], 3);
         assert!(matches!(boxed, NodeNumbers::Hashed(_)) && boxed.len() == 0 && boxed.find(&[0, 0]).is_none());
         boxed.clear(&[], 3);
