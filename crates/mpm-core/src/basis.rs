@@ -257,7 +257,7 @@ pub trait Basis<const D: usize>: Sync {
 
 /// `sum` ← `sum` + `scale` `vector`.
 #[inline(always)]
-fn add_scaled<const D: usize>(sum: &mut [f64; D], scale: f64, vector: &[f64; D]) {
+pub(crate) fn add_scaled<const D: usize>(sum: &mut [f64; D], scale: f64, vector: &[f64; D]) {
     for a in 0..D {
         sum[a] = multiply_add(scale, vector[a], sum[a]);
     }

@@ -11,8 +11,8 @@ use mpm_tensor::vector::multiply_add;
 
 pub use self::degree::SplineDegree;
 use self::numbers::NodeNumbers;
-use self::rows::{Rows, add_row, add_scaled, advance};
-use crate::basis::{Member, check_placement, placed_grid};
+use self::rows::{Rows, add_column, add_row, advance};
+use crate::basis::{Member, add_scaled, check_placement, placed_grid};
 use crate::{Basis, MpmError, Schedule, UniformBasis};
 
 /// Node numbers that are stored, at most; beyond, they are looked up whenever they are asked for.
@@ -202,31 +202,6 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
     }
 
     #[inline]
-    fn for_each_deposit(
-        &self,
-        _: usize,
-        x: &[f64; D],
-        value: &Deposit<D>,
-        scale: f64,
-        mut visit: impl FnMut(usize, f64, &Deposit<D>),
-    ) {
-        let (last, rows) = (D - 1, self.rows(x));
-        rows.for_each(|first, row| {
-            let gradient = Deposit {
-                scalar: 0.0,
-                vector: row.gradient,
-            };
-            let of_row = value.combine(row.weight, &gradient, scale);
-            for j in 0..self.width() {
-                let weight = rows.weights[last][j];
-                let mut deposit = Deposit::ZERO.combine(0.0, &of_row, weight);
-                deposit.vector[last] += scale * row.weight * rows.derivatives[last][j];
-                visit(first + j, row.weight * weight, &deposit);
-            }
-        });
-    }
-
-    #[inline]
     fn deposit<A: Columns<D>, S: Columns<D>>(
         &self,
         Member { x, .. }: Member<(), D>,
@@ -242,16 +217,16 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
             for a in 0..last {
                 let direction = inverse.map_or(row.gradient[a], |inverse| row.weight * row.offset[a] * inverse);
                 for (column, scale) in [(affine.column(a), direction), (flux.column(a), row.gradient[a])] {
-                    add_scaled(&mut of_row.vector, scale, column);
+                    add_column(&mut of_row.vector, scale, column);
                 }
             }
             // What goes with N r and with N′ along the row.
             let (mut tilt, mut slope) = ([0.0; D], [0.0; D]);
             match inverse {
-                Some(inverse) => add_scaled(&mut tilt, row.weight * inverse, affine.column(last)),
-                None => add_scaled(&mut slope, row.weight, affine.column(last)),
+                Some(inverse) => add_column(&mut tilt, row.weight * inverse, affine.column(last)),
+                None => add_column(&mut slope, row.weight, affine.column(last)),
             }
-            add_scaled(&mut slope, row.weight, flux.column(last));
+            add_column(&mut slope, row.weight, flux.column(last));
             for j in 0..self.width() {
                 let (weight, derivative) = (rows.weights[last][j], rows.derivatives[last][j]);
                 let reach = weight * (rows.offsets[last] + h * j as f64);
@@ -284,15 +259,15 @@ impl<const D: usize> Basis<D> for ProductGrid<D> {
             let (mut value, mut slope, mut reach) = ([0.0; D], [0.0; D], [0.0; D]);
             for j in 0..self.width() {
                 let (v, weight) = (nodes.vector(first + j), rows.weights[last][j]);
-                add_scaled(&mut value, weight, Some(v));
+                add_scaled(&mut value, weight, &v);
                 if with_slope {
-                    add_scaled(&mut slope, rows.derivatives[last][j], Some(v));
+                    add_scaled(&mut slope, rows.derivatives[last][j], &v);
                 }
                 if with_moment {
-                    add_scaled(&mut reach, weight * (rows.offsets[last] + h * j as f64), Some(v));
+                    add_scaled(&mut reach, weight * (rows.offsets[last] + h * j as f64), &v);
                 }
             }
-            add_scaled(&mut sum.value, row.weight, Some(value));
+            add_scaled(&mut sum.value, row.weight, &value);
             if with_slope {
                 let slope = slope.map(|c| row.weight * c);
                 add_row(&mut sum.gradient, &value, &row.gradient, &slope);

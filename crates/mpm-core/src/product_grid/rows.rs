@@ -5,6 +5,7 @@ use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
 use super::degree::SplineDegree;
+use crate::basis::add_scaled;
 
 /// Nodes per axis of the widest spline.
 const WIDEST: usize = 4;
@@ -94,13 +95,11 @@ pub(super) fn advance(place: &mut [i32], width: i32) -> usize {
     0
 }
 
-/// `sum` ← `sum` + `scale` `vector`.
+/// `sum` ← `sum` + `scale` `column`, if there is one.
 #[inline(always)]
-pub(super) fn add_scaled<const D: usize>(sum: &mut [f64; D], scale: f64, vector: Option<[f64; D]>) {
-    if let Some(vector) = vector {
-        for a in 0..D {
-            sum[a] = multiply_add(scale, vector[a], sum[a]);
-        }
+pub(super) fn add_column<const D: usize>(sum: &mut [f64; D], scale: f64, column: Option<[f64; D]>) {
+    if let Some(column) = column {
+        add_scaled(sum, scale, &column);
     }
 }
 
