@@ -248,6 +248,20 @@ fn bases_conform_in_six_dimensions() {
 }
 
 #[test]
+fn splines_of_any_degree_conform() {
+    fn all<const D: usize>() {
+        for degree in [SplineDegree::Linear, SplineDegree::Quadratic, SplineDegree::Cubic] {
+            conforms::<D>(&format!("{degree:?} by a loop"), &|o, h| {
+                Box::new(ProductGrid::<D>::new(degree, o, h).unwrap())
+            });
+        }
+    }
+    all::<1>();
+    all::<2>();
+    all::<3>();
+}
+
+#[test]
 fn fields_are_continuous_along_lines() {
     any_basis!(fields_are_continuous, 1);
     any_basis!(fields_are_continuous, 2);

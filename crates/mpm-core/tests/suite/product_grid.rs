@@ -39,8 +39,20 @@ fn entries<const D: usize>(basis: &mut dyn AnyBasis<D>, cloud: &[[f64; D]]) -> V
 fn agrees<S: Spline<W>, const W: usize, const D: usize>(degree: SplineDegree) {
     let (origin, h) = ([0.3; D], 0.7);
     let cloud = gaussian_cloud::<D>(60, 5);
-    let compiled = entries(&mut SplineGrid::<S, W, D>::new(origin, h).unwrap(), &cloud);
-    let looped = entries(&mut ProductGrid::<D>::new(degree, origin, h).unwrap(), &cloud);
+    // Of the second a box around all nodes would be large.
+    let with_one_afar = [&cloud[..], &[[2e4; D]]].concat();
+    for cloud in [cloud, with_one_afar] {
+        agrees_on::<S, W, D>(degree, (origin, h), &cloud);
+    }
+}
+
+fn agrees_on<S: Spline<W>, const W: usize, const D: usize>(
+    degree: SplineDegree,
+    (origin, h): ([f64; D], f64),
+    cloud: &[[f64; D]],
+) {
+    let compiled = entries(&mut SplineGrid::<S, W, D>::new(origin, h).unwrap(), cloud);
+    let looped = entries(&mut ProductGrid::<D>::new(degree, origin, h).unwrap(), cloud);
     for (a, b) in compiled.iter().zip(&looped) {
         assert_eq!(a.len(), W.pow(D as u32));
         for (place, numbers) in a {
