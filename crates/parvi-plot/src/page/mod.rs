@@ -152,7 +152,7 @@ impl Page {
                 .filter_map(|row| row.get(column))
                 .filter(|cell| cell.as_str() != MISSING);
             cells.all(|cell| {
-                cell.starts_with(|c: char| c.is_ascii_digit() || "-−+±>".contains(c)) || cell.starts_with("&lt; ")
+                cell.starts_with(|c: char| c.is_ascii_digit() || "-−+±<>".contains(c)) || cell.starts_with("&lt;")
             })
         };
         let rule: Vec<&str> = (0..header.len())
