@@ -81,6 +81,20 @@ fn a_table_of_the_prose_may_have_several_lines() {
 }
 
 #[test]
+fn bounds_are_numbers_in_tables() {
+    let prose = "# A\n\n### b\n\n| more | less |\n| --- | --- |\n| {first more} | {first less} |\n";
+    let mut page = Page::of(prose, &[]);
+    let row = Row::of("a").with("more", "> 4").with("less", "< 4");
+    let rows: Rows<'_> = [&row].into_iter().collect();
+    page.lines_over("b", &[], [rows]);
+    assert!(
+        page.text.ends_with("| ---: | ---: |\n| > 4 | &lt; 4 |\n"),
+        "{}",
+        page.text
+    );
+}
+
+#[test]
 fn prose_says_statistics_of_rows_as_tables_do() {
     let prose = "# A\n\n## Errors\n\nAt most {farthest error} by {method}, of size {median size} ({bound} asked).\n";
     let rows = [-2.0, 0.5].map(|error| Row::of("a").with("error", error));
