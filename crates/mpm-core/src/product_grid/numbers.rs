@@ -45,15 +45,12 @@ impl<const D: usize> NodeNumbers<D> {
         match (size.filter(|&size| size <= most), &mut *self) {
             (Some(size), Self::Boxed(own)) => own.clear(lower, extent, size),
             (Some(size), Self::Hashed(_)) => {
-                let (numbers, places) = (Vec::new(), Vec::new());
-                let mut own = NodeBox {
+                *self = Self::Boxed(NodeBox {
                     lower,
                     extent,
-                    numbers,
-                    places,
-                };
-                own.clear(lower, extent, size);
-                *self = Self::Boxed(own);
+                    numbers: vec![NO_NODE; size],
+                    places: Vec::new(),
+                });
             }
             (None, Self::Boxed(_)) => *self = Self::default(),
             (None, Self::Hashed(map)) => map.clear(),
