@@ -92,8 +92,8 @@ impl<'a, const D: usize> Body<'a, D> {
         let viscous = self.motion.laws().viscous_step(self.motion.spacing());
         let free = longest.min(self.scene.time.courant * viscous);
         let free = free.min(self.scene.time.step.unwrap_or(f64::INFINITY));
-        // Two equal steps to the event, not a long one and a tiny one.
-        let cut = if rest > self.free_step && rest < 2.0 * self.free_step {
+        // Two equal steps to the event, not a long one and a tiny one; what is tiny by rounding is none.
+        let cut = if rest > (1.0 + SAME) * self.free_step && rest < 2.0 * self.free_step {
             0.5 * rest
         } else {
             rest

@@ -31,6 +31,15 @@ fn all_frames(scene: &Scene) -> Vec<Snapshot> {
 }
 
 #[test]
+fn steps_that_divide_a_frame_are_not_cut_by_rounding() {
+    for (step, steps) in [("0.005", 40), ("0.0025", 80), ("0.002", 100), ("0.001", 200)] {
+        let scene = scene(&STRIP.replace("0.0050000001", step));
+        let effort = frames(&scene, &mut |_| {}).expect("runs");
+        assert_eq!(effort.steps, steps, "{step}");
+    }
+}
+
+#[test]
 fn kinematic_particles_are_where_their_motion_puts_them_until_they_are_let_go() {
     let scene = scene(&strip(TURNED));
     let population = Population::<2>::fill(&scene).expect("fills");
