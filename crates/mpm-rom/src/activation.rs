@@ -2,7 +2,7 @@
 
 use mpm_tensor::vector::multiply_add;
 
-/// Below this e^z is less than half a unit in the last place of 1.
+/// Below this 2ᵏ is no normal number; e^z − 1 is −1 long before.
 const SMALLEST_ARGUMENT: f64 = -708.0;
 
 /// Adding it to |y| < 2⁵¹ rounds y to an integer, which then stands in the lowest bits: 1.5 · 2⁵².

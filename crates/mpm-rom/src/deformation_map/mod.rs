@@ -31,7 +31,7 @@ pub enum DeformationMapError {
     Rest(LeastSquaresError),
 }
 
-/// The deformation map g(X, x̂) = g̃(X, x̂) + a(X) (Chen et al. 2023, §3.2) of a body that starts at rest, for which the paper's b(X) is 0.
+/// The deformation map g(X, x̂) = g̃(X, x̂) + a(X) (Chen et al. 2023, §3.1, Eqs. 24 to 26) of a body that starts at rest, for which the paper's b(X) is 0.
 ///
 /// a(X) = X − g̃(X, x̂₀) with x̂₀ = argmin_y Σ|X_p − g̃(X_p, y)|², so that g(X, x̂₀) = X, and F = ∇g̃(X, x̂) + I − ∇g̃(X, x̂₀) = I there.
 pub struct DeformationMap<const D: usize, M> {

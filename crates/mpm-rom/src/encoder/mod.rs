@@ -14,7 +14,7 @@ use crate::manifold::network::{Layer, Scaling, draw_uniform};
 
 /// x̂ = e(φ): the scaled positions of all points, x₁ y₁ z₁ x₂ …, as one channel through 1-D convolutions (kernel 6, stride 2, no padding,
 /// ELU; one weight vector and one bias each) while the result is at least 32 wide, a dense layer with ELU and a dense layer to r
-/// (Chen et al. 2023, §4.1).
+/// (Chen et al. 2023, §4.1 and Table 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoder<const D: usize> {
     shape: EncoderShape,

@@ -1,4 +1,4 @@
-//! One step of the reduced dynamics, phase by phase (Chen et al. 2023, Algorithm 1).
+//! One step of the reduced dynamics, phase by phase (Chen et al. 2023, Algorithm 2).
 
 use mpm_tensor::vector;
 

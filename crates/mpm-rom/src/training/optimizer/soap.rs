@@ -18,7 +18,7 @@ const INTERVAL: u64 = 10;
 /// * G' = Q_Lᵀ G Q_R, M ← β₁ M + (1 − β₁) G', S ← β₂ S + (1 − β₂) G'², Θ ← Θ − rate · Q_L [M̂ / (√Ŝ + ε)] Q_Rᵀ, entry by entry, M̂ and Ŝ as in Adam.
 ///
 /// β₁ = 0.9, β₂ = β₃ = 0.95, ε = 1e-12 (ours, by the loss of a training of §5.2). M is turned with the eigenvectors, S is not. A step costs
-/// 8 products of m × n with a square matrix, and two factorisations at every tenth.
+/// 4 products of m × n with a square matrix and G Gᵀ and Gᵀ G, and at every tenth 6 products more and two factorisations.
 #[derive(Clone, Debug)]
 pub(in crate::training) struct Soap {
     layers: Vec<Eigenbasis>,
