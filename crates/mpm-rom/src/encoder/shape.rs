@@ -38,7 +38,7 @@ impl EncoderShape {
     /// Widths before, between and after the convolutions: w → (w − 6) / 2 + 1, rounded down, while the result is at least 32. For 1,368 points in
     /// three dimensions 4104, 2050, 1023, 509, 252, 124, 60.
     pub fn widths(&self, dimension: usize) -> Vec<usize> {
-        let mut widths = vec![self.points * dimension];
+        let mut widths = vec![self.points.saturating_mul(dimension)];
         let next = |width: &usize| width.checked_sub(KERNEL).map(|rest| rest / STRIDE + 1);
         while let Some(width) = widths.last().and_then(next).filter(|&width| width >= NARROWEST) {
             widths.push(width);

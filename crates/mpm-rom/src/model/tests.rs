@@ -152,3 +152,42 @@ fn errors_are_those_of_all_points_and_frames() {
     let apart = model.gradient_error(&snapshots).unwrap();
     assert!((apart / (gradient / 150.0_f64).sqrt() - 1.0).abs() < 1e-12, "{apart}");
 }
+
+#[test]
+fn sizes_that_no_file_can_hold_are_an_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("model.safetensors");
+    let (network, encoder) = (
+        NetworkShape {
+            coordinates: 3,
+            width: 5,
+            depth: 2,
+        },
+        EncoderShape {
+            points: 50,
+            width: 4,
+            coordinates: 3,
+        },
+    );
+    let huge = usize::MAX / 3;
+    let shapes = [
+        (NetworkShape { depth: huge, ..network }, encoder),
+        (NetworkShape { width: huge, ..network }, encoder),
+        (
+            network,
+            EncoderShape {
+                points: usize::MAX,
+                ..encoder
+            },
+        ),
+        (network, EncoderShape { width: huge, ..encoder }),
+    ];
+    for (network, encoder) in shapes {
+        model().write_as((network, encoder), &path).unwrap();
+        let fault = Model::<2>::read(&path).map_err(|error| *error.fault);
+        assert!(
+            matches!(fault, Err(E::Shape { .. })),
+            "{network:?} {encoder:?}: {fault:?}"
+        );
+    }
+}

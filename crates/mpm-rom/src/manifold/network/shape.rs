@@ -27,12 +27,13 @@ pub(crate) struct Layer {
 impl Layer {
     /// The layer whose parameters begin at `start`.
     pub fn at(start: usize, inputs: usize, outputs: usize) -> Self {
-        let middle = start + inputs * outputs;
+        // Sizes may come from a file: those that cannot be counted fit no list of parameters.
+        let middle = start.saturating_add(inputs.saturating_mul(outputs));
         Self {
             inputs,
             outputs,
             weights: start..middle,
-            bias: middle..middle + outputs,
+            bias: middle..middle.saturating_add(outputs),
         }
     }
 
@@ -69,9 +70,16 @@ impl NetworkShape {
         layers
     }
 
-    /// Number of weights and biases of a network for D axes.
+    /// Number of weights and biases of a network for D axes; `usize::MAX` where it cannot be counted.
     pub fn parameters(&self, dimension: usize) -> usize {
-        self.layers(dimension).last().map_or(0, |layer| layer.bias.end)
+        let of_layer = |inputs: usize, outputs: usize| inputs.saturating_add(1).saturating_mul(outputs);
+        let inputs = dimension.saturating_add(self.coordinates);
+        let Some(between) = self.depth.checked_sub(1) else {
+            return of_layer(inputs, dimension);
+        };
+        of_layer(inputs, self.width)
+            .saturating_add(between.saturating_mul(of_layer(self.width, self.width)))
+            .saturating_add(of_layer(self.width, dimension))
     }
 }
 
@@ -89,6 +97,12 @@ mod tests {
         let layers = shape.layers(3);
         assert_eq!(layers.len(), 5);
         assert_eq!(shape.parameters(3), 30 * 9 + 30 + 3 * (30 * 30 + 30) + 3 * 30 + 3);
+        assert_eq!(layers.last().map(|layer| layer.bias.end), Some(shape.parameters(3)));
+        let flat = NetworkShape { depth: 0, ..shape };
+        assert_eq!(
+            flat.layers(3).last().map(|layer| layer.bias.end),
+            Some(flat.parameters(3))
+        );
         for pair in layers.windows(2) {
             assert_eq!(pair[0].bias.end, pair[1].weights.start);
             assert_eq!(pair[0].outputs, pair[1].inputs);
