@@ -64,6 +64,16 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
         })
     }
 
+    /// The map with this x̂₀.
+    #[cfg(test)]
+    pub(crate) fn at(manifold: M, rest: Vec<f64>) -> Self {
+        Self {
+            manifold,
+            rest,
+            at_rest: Evaluation::default(),
+        }
+    }
+
     /// r.
     pub fn coordinates(&self) -> usize {
         self.manifold.coordinates()

@@ -6,6 +6,9 @@ use super::scaled_reading::mean_product;
 use super::{OnlineError, ReducedModel};
 use crate::manifold::{Evaluation, Manifold, Wanted};
 
+/// Eigenvalues below this multiple of the largest one are rounding.
+const LEAST_SQUARE: f64 = 1e-14;
+
 /// Jacobians and velocities of the sample points in a step from some state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading<const D: usize> {
@@ -47,7 +50,9 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let Some(eigen) = SymmetricEigen::new(&mean_product(r, &there.jacobians)) else {
             return Vec::new();
         };
-        let lengths = eigen.values.iter().map(|value| distance / value.sqrt());
+        let least = LEAST_SQUARE * eigen.values.iter().copied().fold(0.0, f64::max);
+        let moving = |value: &f64| if *value > least { *value } else { f64::NAN };
+        let lengths = eigen.values.iter().map(|value| distance / moving(value).sqrt());
         let states = lengths.enumerate().flat_map(|(k, length)| {
             [length, -length].map(|length| (0..r).map(|i| latent[i] + length * eigen.vectors[(i, k)]).collect())
         });

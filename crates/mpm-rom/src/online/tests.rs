@@ -187,3 +187,27 @@ fn neighbour_lists_find_what_the_search_of_all_points_finds() {
 
 mod moving;
 mod refused;
+
+#[test]
+fn states_lie_along_what_moves_the_body_only() {
+    // The second coordinate moves what the first one does: one of two eigenvalues is zero but for rounding.
+    let doubled = Fields {
+        coordinates: 2,
+        field: |k, x| {
+            (
+                vector::scale(&[x[0], 0.3 * x[1]], 1.0 + 2.0 * k as f64),
+                mpm_tensor::Matrix::ZERO,
+            )
+        },
+        curvature: 0.0,
+    };
+    let body = body(BLOCK);
+    let points = SampleChoice::All;
+    // x̂₀ is not unique: none is looked for.
+    let map = DeformationMap::at(doubled, vec![0.0; 2]);
+    let numbers = points.choose(&body.reference, 2, &body.kinematics).expect("all");
+    let model = ReducedModel::to_read(body, map, numbers, LAGRANGIAN).expect("in range");
+    let states = model.states_around(&[0.0; 2], 0.01);
+    assert_eq!(states.len(), 2, "{states:?}");
+    assert!(states.iter().flatten().all(|y| y.abs() < 1.0), "{states:?}");
+}
