@@ -139,7 +139,8 @@ fn made<'a, const D: usize>(
 
 impl Made {
     fn is_kinematic(&self, number: u32) -> bool {
-        self.regions.iter().any(|members| members.contains(&(number as usize)))
+        let own = number as usize;
+        self.regions.iter().any(|members| members.binary_search(&own).is_ok())
     }
 
     /// The choice after these exchanges.

@@ -80,10 +80,11 @@ fn thinned(known: &KnownPoints, members: &[u32]) -> Vec<u32> {
 
 /// Points of kinematic regions that must be in 𝒫, too, beside the chosen ones: known ones first.
 fn unused<const D: usize>(kinematics: &Kinematics<D>, known: &KnownPoints, chosen: &[u32]) -> Vec<u32> {
-    let mut others: Vec<u32> = Vec::new();
+    let (mut others, mut sorted) = (Vec::new(), chosen.to_vec());
+    sorted.sort_unstable();
     for region in kinematics.regions() {
         let members = region.members.iter().map(|&p| p as u32);
-        let (found, mut free): (Vec<u32>, Vec<u32>) = members.partition(|p| chosen.contains(p) || others.contains(p));
+        let (found, mut free): (Vec<u32>, Vec<u32>) = members.partition(|p| sorted.binary_search(p).is_ok());
         free.sort_by_key(|point| known.place(*point).is_none());
         let needed = region.members.len().min(ON_EACH_REGION);
         others.extend(free.into_iter().take(needed.saturating_sub(found.len())));

@@ -21,7 +21,11 @@ pub fn rank_exchanges<const D: usize>(
     let mut design = Design::new(coordinates, known, readings)?;
     chosen.iter().for_each(|&point| design.change(point, 1.0));
     let regions = kinematics.regions();
-    let is_free = |point: &u32| !regions.iter().any(|region| region.members.contains(&(*point as usize)));
+    let is_free = |point: &u32| {
+        !regions
+            .iter()
+            .any(|region| region.members.binary_search(&(*point as usize)).is_ok())
+    };
     let others = (0..known.points_of_body() as u32).filter(|point| known.place(*point).is_some());
     let others: Vec<u32> = others
         .filter(|point| is_free(point) && !chosen.contains(point))

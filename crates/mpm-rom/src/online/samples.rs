@@ -66,14 +66,16 @@ impl SampleChoice {
             _ => {}
         }
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
-        let mut chosen = Vec::with_capacity(count);
+        let (mut chosen, mut free) = (Vec::with_capacity(count), vec![true; points]);
         for (mut members, share) in groups {
-            members.retain(|point| !chosen.contains(point));
+            members.retain(|&point| free[point as usize]);
             members.shuffle(&mut generator);
             if matches!(self, Self::Spread { .. }) {
                 spread(reference, &mut members, share);
             }
-            chosen.extend(members.into_iter().take(share));
+            members.truncate(share);
+            members.iter().for_each(|&point| free[point as usize] = false);
+            chosen.append(&mut members);
         }
         chosen.sort_unstable();
         Ok(chosen)
