@@ -62,13 +62,16 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// One step of length Δt, from t_n to t_{n+1}.
     ///
     /// # Errors
-    /// [`OnlineError`] with the number of the step; the coordinates are then those of t_n.
+    /// [`OnlineError`] with the number of the step; x̂ and the time are then those of t_n.
     pub fn step(&mut self) -> Result<StepReport, OnlineError> {
         self.step += 1;
-        let report = self.find_velocities()?;
-        self.move_coordinates()?;
-        self.steps += 1;
-        Ok(report)
+        let found = self.find_velocities();
+        let moved = found.and_then(|report| self.move_coordinates().map(|()| report));
+        match &moved {
+            Ok(_) => self.steps += 1,
+            Err(_) => self.step -= 1,
+        }
+        moved
     }
 
     /// (1) to (4): the velocities of the sample points.

@@ -55,7 +55,12 @@ fn an_inverted_map_is_an_error_and_a_named_fallback() {
         let mut model = model(BLOCK, Fields::bending(3), options);
         // ∂x/∂X_1 = 1 + (y + 0.3 y²) X_1² ... of field 1 is X_0 X_1 along the first axis: J ≤ 0 where X_1 is low.
         model.coordinates.latent = vec![0.0, 4.0, 0.0];
-        model.step()
+        let step = model.step();
+        assert_eq!(
+            (model.time() > 0.0, model.steps()),
+            (step.is_ok(), u64::from(step.is_ok()))
+        );
+        step
     };
     for quadrature in [LAGRANGIAN, EULERIAN] {
         let error = squashed(quadrature, Inverted::Refuse).expect_err("J < 0");
