@@ -60,7 +60,10 @@ impl<'a, const D: usize> Trainer<'a, D> {
         let file = TensorReader::open(path, LAYOUT)?;
         let header: Header = file.header()?;
         file.expect_dimension(header.dimension, D)?;
-        let refuse = |what| Err(TrainingError::OtherCheckpoint { what });
+        let refuse = |what| {
+            let file = path.to_owned();
+            Err(TrainingError::OtherCheckpoint { file, what })
+        };
         // How often checkpoints are written has no part in the result.
         let same = Training {
             checkpoint_interval: trainer.config.checkpoint_interval,

@@ -27,8 +27,10 @@ pub enum TrainingError {
         loss: f64,
     },
     /// A checkpoint of another configuration or of other snapshots.
-    #[error("checkpoint: {what} differs; remove it to begin again")]
+    #[error("{}: {what} differs; remove it to begin again", .file.display())]
     OtherCheckpoint {
+        /// The checkpoint's file.
+        file: std::path::PathBuf,
         /// What differs.
         what: &'static str,
     },

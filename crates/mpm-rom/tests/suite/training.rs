@@ -82,7 +82,7 @@ fn another_checkpoint_is_refused() {
         .write_checkpoint(&path)
         .unwrap();
     let refused = |snapshots: &Snapshots<3>, config: Training| match Trainer::resume(snapshots, config, &path) {
-        Err(TrainingError::OtherCheckpoint { what }) => what,
+        Err(TrainingError::OtherCheckpoint { what, .. }) => what,
         other => panic!("{other:?}"),
     };
     let other = Training {
