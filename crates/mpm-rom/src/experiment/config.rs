@@ -6,7 +6,9 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
+use super::files::names;
 use super::options::{All, ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount};
+use super::results::is_column;
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
 use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, SampleWeights, Search, Update};
@@ -257,6 +259,28 @@ impl Experiment {
         ] {
             let message = format!("\"linear\" needs all points of the training: leave out {key}");
             self.require(!(given && linear), "run.manifold", &message)?;
+        }
+        let lists = Quadrature::Lagrangian {
+            search: Search::Lists { skin: run.skin },
+        };
+        let in_space = Quadrature::Eulerian {
+            per_axis: run.points_per_axis,
+        };
+        for (key, quadrature) in [("run.skin", lists), ("run.points_per_axis", in_space)] {
+            let fits = quadrature.check();
+            fits.map_err(|error| self.field(key.to_owned(), error.to_string()))?;
+        }
+        for (number, name) in self.parameters.iter().enumerate() {
+            let field = format!("parameters.{number}");
+            let is_cell = !name.is_empty() && !name.contains(|c: char| c == ',' || c == '"' || c.is_control());
+            let message = format!("{name:?}: a name without commas, quotes and line ends is needed");
+            self.require(is_cell, &field, &message)?;
+            let is_new = !self.parameters[..number].contains(name) && !is_column(name);
+            let message = format!(
+                "{name:?}: is the name of another parameter or of a column of {}",
+                names::RESULTS
+            );
+            self.require(is_new, &field, &message)?;
         }
         self.trainings()?;
         // The values themselves show whether all keys make sense.

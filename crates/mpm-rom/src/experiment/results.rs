@@ -83,6 +83,14 @@ pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
     text
 }
 
+/// The columns of the results, but for the parameters.
+const COLUMNS: &str = "case manifold variant samples asked choice quadrature update step_factor position_error_percent reconstruction_error_percent super_resolution_points super_resolution_error_percent tracer_error_percent latent_return simulated_seconds steps seconds full_seconds speed_up real_time_factor nodes quadrature_points neighbour_lists limited outcome";
+
+/// Whether the results have a column with this name, whatever the parameters are.
+pub(super) fn is_column(name: &str) -> bool {
+    COLUMNS.split(' ').any(|column| column == name)
+}
+
 /// Names and values of a row, empty where there are none.
 fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, String)> {
     let exact = |value: f64| format!("{value:?}");

@@ -7,8 +7,8 @@ use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::step::Scheme;
 use super::{
-    Inverted, OnlineError, Options, Quadrature, ReducedBody, ReducedModel, SampleChoice, SampleWeights, Search,
-    StepReport, Update,
+    Inverted, OnlineError, Options, Quadrature, ReducedBody, ReducedModel, SampleChoice, SampleWeights, StepReport,
+    Update,
 };
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, Wanted};
@@ -137,28 +137,9 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 }
 
 fn scheme<const D: usize>(quadrature: &Quadrature) -> Result<Scheme<D>, OnlineError> {
-    match *quadrature {
-        Quadrature::Lagrangian { search } => {
-            if let Search::Lists { skin } = search
-                && !(skin > 0.0 && skin.is_finite())
-            {
-                return Err(OnlineError::Option {
-                    field: "skin",
-                    value: skin,
-                    expected: "positive and finite",
-                });
-            }
-            Ok(Scheme::Lagrangian(Lagrangian::new(search)))
-        }
-        Quadrature::Eulerian { per_axis } => {
-            if !(1..=16).contains(&per_axis) {
-                return Err(OnlineError::Option {
-                    field: "per_axis",
-                    value: per_axis as f64,
-                    expected: "1 to 16",
-                });
-            }
-            Ok(Scheme::Eulerian(Eulerian::new(per_axis)))
-        }
-    }
+    quadrature.check()?;
+    Ok(match *quadrature {
+        Quadrature::Lagrangian { search } => Scheme::Lagrangian(Lagrangian::new(search)),
+        Quadrature::Eulerian { per_axis } => Scheme::Eulerian(Eulerian::new(per_axis)),
+    })
 }

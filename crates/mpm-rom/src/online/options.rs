@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::OnlineError;
 use super::neighbours::Search;
 use super::samples::SampleChoice;
 use crate::words::words;
@@ -45,6 +46,24 @@ pub enum Quadrature {
         /// ℓ, points per axis of a cell; the paper's is 2.
         per_axis: usize,
     },
+}
+
+impl Quadrature {
+    /// Whether its numbers are in range.
+    ///
+    /// # Errors
+    /// [`OnlineError::Option`].
+    pub(crate) fn check(&self) -> Result<(), OnlineError> {
+        let (field, value, fits, expected) = match *self {
+            Self::Lagrangian { search: Search::All } => return Ok(()),
+            Self::Lagrangian {
+                search: Search::Lists { skin },
+            } => ("skin", skin, skin > 0.0 && skin.is_finite(), "positive and finite"),
+            Self::Eulerian { per_axis } => ("per_axis", per_axis as f64, (1..=16).contains(&per_axis), "1 to 16"),
+        };
+        let error = OnlineError::Option { field, value, expected };
+        fits.then_some(()).ok_or(error)
+    }
 }
 
 /// What happens where the map has J ≤ 0 at a quadrature point.
