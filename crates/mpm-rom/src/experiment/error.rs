@@ -7,7 +7,6 @@ use super::Experiment;
 use crate::deformation_map::DeformationMapError;
 use crate::encoder::EncoderError;
 use crate::full_order::FullOrderError;
-use crate::manifold::LinearError;
 use crate::online::OnlineError;
 use crate::tensor_file::TensorFileError;
 use crate::training::TrainingError;
@@ -79,6 +78,16 @@ pub enum ExperimentError {
         /// What it was.
         copy: String,
     },
+    /// The training data are those of another experiment.
+    #[error("{file}: {found}, where the experiment has {expected}: data of another one, choose another directory")]
+    OtherData {
+        /// The data's file.
+        file: String,
+        /// What they have.
+        found: String,
+        /// What the experiment has.
+        expected: String,
+    },
     /// A dimension that nothing is built for.
     #[error("a scene of dimension {dimension}: reduced models have 2 or 3")]
     Dimension {
@@ -105,9 +114,6 @@ pub enum ExperimentError {
     /// The encoder.
     #[error(transparent)]
     Encoder(#[from] EncoderError),
-    /// The linear manifold.
-    #[error(transparent)]
-    Linear(#[from] LinearError),
     /// The map at rest.
     #[error(transparent)]
     Map(#[from] DeformationMapError),

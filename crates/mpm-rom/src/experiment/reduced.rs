@@ -15,7 +15,7 @@ use super::super_resolution::Finer;
 use super::trained::models_for;
 use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording};
-use crate::manifold::{Manifold, Pod};
+use crate::manifold::{LinearError, Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
 
@@ -53,9 +53,20 @@ pub fn run<const D: usize>(
         .map(|(_, model)| model.encoder().encode(&trained_on.reference));
     let at_rest: Vec<Vec<f64>> = at_rest.collect::<Result<_, _>>()?;
     let training = training::<D>(experiment, directory)?;
+    if let Some(snapshots) = &training
+        && snapshots.points() != trained_on.reference.len()
+    {
+        return Err(ExperimentError::OtherData {
+            file: directory.join(names::TRAINING_DATA).display().to_string(),
+            found: format!("{} points", snapshots.points()),
+            expected: format!("{} points", trained_on.reference.len()),
+        });
+    }
     let linear = match &training {
         Some(snapshots) if experiment.run.manifold.contains(&ManifoldName::Linear) => {
-            Some(Pod::new(snapshots, experiment.training.coordinates)?)
+            let refused =
+                |error: LinearError| experiment.field("run.manifold".to_owned(), format!("\"linear\": {error}"));
+            Some(Pod::new(snapshots, experiment.training.coordinates).map_err(refused)?)
         }
         _ => None,
     };
@@ -96,7 +107,7 @@ pub fn run<const D: usize>(
         let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
         let recording = recording.about(&trained_on.centroid);
         let (frames_of_run, effort) = recording
-            .run(&scene)
+            .run_in_even_steps(&scene)
             .map_err(|error| ExperimentError::of_test_case(experiment, case, error))?;
         let run = Run {
             parameters: values.clone(),
@@ -234,7 +245,7 @@ fn training<const D: usize>(
     directory: &Path,
 ) -> Result<Option<Snapshots<D>>, ExperimentError> {
     if experiment.run.manifold.contains(&ManifoldName::Linear) || chooses_on_training(experiment) {
-        return Ok(Some(Snapshots::read(&directory.join(names::TRAINING_DATA))?));
+        return Ok(Some(experiment.read_data(directory)?));
     }
     Ok(None)
 }

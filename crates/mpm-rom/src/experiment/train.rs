@@ -54,7 +54,7 @@ fn training_data<const D: usize>(
 ) -> Result<Snapshots<D>, ExperimentError> {
     let file = directory.join(names::TRAINING_DATA);
     if file.exists() {
-        return Ok(Snapshots::read(&file)?);
+        return experiment.read_data(directory);
     }
     let document = experiment.read_scene()?;
     let values = &experiment.cases.train;
@@ -74,4 +74,41 @@ fn training_data<const D: usize>(
     experiment.keep_scene(&document, directory)?;
     snapshots.write(&file)?;
     Ok(snapshots)
+}
+
+impl Experiment {
+    /// The snapshots of the training runs in a directory.
+    ///
+    /// # Errors
+    /// [`ExperimentError::TensorFile`]; [`ExperimentError::OtherData`] for those of another scene or of other cases.
+    pub(super) fn read_data<const D: usize>(&self, directory: &Path) -> Result<Snapshots<D>, ExperimentError> {
+        let file = directory.join(names::TRAINING_DATA);
+        let snapshots = Snapshots::<D>::read(&file)?;
+        let (body, runs) = (snapshots.body(), snapshots.runs());
+        let title = self.scene_of(&self.read_scene()?, &self.cases.train[0])?.title;
+        let cases = || runs.iter().map(|run| &run.parameters);
+        let differs = (0..)
+            .zip(cases().zip(&self.cases.train))
+            .find(|(_, (found, expected))| found != expected);
+        let pairs = [
+            Some((format!("scene `{}`", body.scene), format!("scene `{title}`"))),
+            Some((
+                format!("parameters {:?}", body.parameters),
+                format!("parameters {:?}", self.parameters),
+            )),
+            Some((
+                format!("{} runs", runs.len()),
+                format!("{} runs", self.cases.train.len()),
+            )),
+            differs.map(|(run, (found, expected))| (format!("run {run} of {found:?}"), format!("{expected:?}"))),
+        ];
+        match pairs.into_iter().flatten().find(|(found, expected)| found != expected) {
+            None => Ok(snapshots),
+            Some((found, expected)) => Err(ExperimentError::OtherData {
+                file: file.display().to_string(),
+                found,
+                expected,
+            }),
+        }
+    }
 }

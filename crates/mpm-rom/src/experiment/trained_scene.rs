@@ -9,7 +9,7 @@ use crate::full_order::SceneDocument;
 use crate::online::check_supported;
 
 impl Experiment {
-    /// Refuses what no reduced run can have, before anything is trained for it: in the scene that is run, and, where runs of it choose sample points or networks, in that of the training.
+    /// Refuses what no reduced run can have, before anything is trained for it: in the scene that is run, and, where runs of it choose sample points or networks, in that of the training, and instants between its frames.
     pub(super) fn check_reducible<const D: usize>(&self) -> Result<(), ExperimentError> {
         // Runs by which the training chooses have the time steps of its scene.
         let mut scenes = vec![(self.read_run_scene()?, &self.cases.test, &self.run.step_factor[..])];
@@ -22,6 +22,13 @@ impl Experiment {
                 for &factor in factors {
                     check_step_factor(self, factor, steps)?;
                 }
+            }
+        }
+        if let Some(between) = &self.frames_between {
+            let document = self.read_scene()?;
+            for values in &self.cases.train {
+                let divided = between.of(&self.scene_of(&document, values)?);
+                divided.map_err(|error| self.field("frames_between.per_frame".to_owned(), error.to_string()))?;
             }
         }
         Ok(())

@@ -64,6 +64,20 @@ pub enum FullOrderError {
         /// Time steps of a frame.
         steps: u64,
     },
+    /// Time steps of a run were cut, so that a reduced run would not be damped alike.
+    #[error(
+        "{file}: {found} time steps, where time.step = {step} makes {expected}: the Courant condition, time.end or an interval of [output] has cut some of them, and reduced runs would not be damped alike"
+    )]
+    CutSteps {
+        /// The scene's file.
+        file: String,
+        /// Steps taken.
+        found: u64,
+        /// The time step.
+        step: f64,
+        /// Steps of this length until the end.
+        expected: f64,
+    },
     /// A run failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),

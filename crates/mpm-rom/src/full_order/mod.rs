@@ -7,6 +7,7 @@ mod tracers;
 
 pub use document::{SceneDocument, Value};
 pub use error::FullOrderError;
+pub(crate) use recording::steps_per_frame as whole_steps_per_frame;
 pub use recording::{FramesBetween, Recording};
 pub use tracers::TracedRun;
 
@@ -57,7 +58,7 @@ pub fn collect<const D: usize>(
         if *first != own {
             return Err(FullOrderError::AnotherBody { run: number });
         }
-        let (frames, _) = own.run(&scene)?;
+        let (frames, _) = own.run_in_even_steps(&scene)?;
         let parameters = case.parameters.clone();
         runs.push(Run { parameters, frames });
         if after_run(runs.len()).is_break() && runs.len() < cases.len() {

@@ -10,6 +10,12 @@ use serde::Deserialize;
 use super::{FullOrderError, body_of};
 use crate::snapshots::{Body, Frame};
 
+/// Time steps of a frame; none where a Δt is not given, or does not divide it.
+pub(crate) fn steps_per_frame(scene: &Scene) -> Option<u64> {
+    let steps = scene.output.interval / scene.time.step?;
+    (steps >= 0.5 && (steps - steps.round()).abs() <= 1e-6 * steps).then(|| steps.round() as u64)
+}
+
 /// Frames that are recorded beside those of the scene (ours): a body that swings within a few frames is not known from these alone.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -22,7 +28,7 @@ pub struct FramesBetween {
 
 impl FramesBetween {
     /// The scene with a frame at every instant that is looked at.
-    fn of(&self, scene: &Scene) -> Result<Scene, FullOrderError> {
+    pub(crate) fn of(&self, scene: &Scene) -> Result<Scene, FullOrderError> {
         let mut finer = scene.clone();
         finer.output.interval /= self.per_frame as f64;
         if let Some(step) = scene.time.step {
@@ -117,6 +123,27 @@ impl<const D: usize> Recording<D> {
             number += 1;
         })?;
         Ok((all, effort))
+    }
+
+    /// As [`run`](Self::run), and refuses a run whose time steps were not all as long as those of reduced runs, where the scene's Δt divides its frames.
+    ///
+    /// # Errors
+    /// [`FullOrderError::CutSteps`], and as [`run`](Self::run).
+    pub fn run_in_even_steps(&self, scene: &Scene) -> Result<(Vec<Frame<D>>, Effort), FullOrderError> {
+        let (frames, effort) = self.run(scene)?;
+        let (Some(step), Some(per_frame)) = (scene.time.step, steps_per_frame(scene)) else {
+            return Ok((frames, effort));
+        };
+        let expected = scene.time.end / scene.output.interval * per_frame as f64;
+        if (effort.steps as f64 - expected).abs() > 1e-6 * expected {
+            return Err(FullOrderError::CutSteps {
+                file: scene.file.display().to_string(),
+                found: effort.steps,
+                step,
+                expected,
+            });
+        }
+        Ok((frames, effort))
     }
 
     fn frame(&self, snapshot: &Snapshot) -> Frame<D> {

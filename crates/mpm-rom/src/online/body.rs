@@ -3,13 +3,13 @@
 use mpm_core::{ON_A_SURFACE, PrescribedVelocity, VolumeAveraging};
 use mpm_kernels::UniformGrid;
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
-use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, TransferKind};
+use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, StressUpdateName, TransferKind};
 use mpm_scenes::shape::{self, Shape};
 use mpm_scenes::{HeldRegion, Kinematics, Population, Scene};
 use mpm_tensor::vector;
 
 use super::OnlineError;
-use crate::full_order::body_of;
+use crate::full_order::{body_of, whole_steps_per_frame};
 
 /// A body with everything that pulls at it: the same points, grid, kernel (quadratic), transfer (PIC), Δt and prescribed motions as in the full-order run
 /// of its scene. Positions are relative to the centroid at rest.
@@ -44,7 +44,7 @@ impl<const D: usize> ReducedBody<D> {
     /// The body of a scene.
     ///
     /// # Errors
-    /// [`OnlineError::Unsupported`] for what the reduced dynamics do not have: other bases, transfers and laws, walls, obstacles, loads, several
+    /// [`OnlineError::Unsupported`] for what the reduced dynamics do not have: other bases, transfers, laws and orders of the stress update, walls, obstacles, loads, a ramp of gravity, several
     /// materials, a Δt that is not given or does not divide the frame; what [`body_of`] says.
     pub fn of(scene: &Scene) -> Result<Self, OnlineError> {
         let refused = |fault| scene.error(fault);
@@ -159,7 +159,13 @@ fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineEr
             "volume_averaging",
             "false",
         ),
+        (scene.gravity_ramp == 0.0, "gravity_ramp", "0"),
         (scene.time.damping == 0.0, "time.damping", "0"),
+        (
+            scene.time.stress_update == StressUpdateName::Last,
+            "time.stress_update",
+            "\"last\"",
+        ),
         (!turned, "bodies.rotation, bodies.deformation", "left out"),
         (!moving, "bodies.velocity", "left out"),
     ];
@@ -190,11 +196,10 @@ pub(crate) fn check_supported<const D: usize>(scene: &Scene) -> Result<u64, Onli
 
 /// Refuses a Δt that is not given or does not divide the frame.
 fn steps_per_frame(scene: &Scene) -> Result<u64, OnlineError> {
-    let steps = scene.output.interval / scene.time.step.unwrap_or(f64::NAN);
-    if !(steps >= 0.5 && (steps - steps.round()).abs() <= 1e-6 * steps) {
-        return unsupported(scene, "time.step", "given, and a whole part of output.interval");
+    match whole_steps_per_frame(scene) {
+        Some(steps) => Ok(steps),
+        None => unsupported(scene, "time.step", "given, and a whole part of output.interval"),
     }
-    Ok(steps.round() as u64)
 }
 
 fn material<const D: usize>(scene: &Scene, table: &MaterialTable) -> Result<Box<dyn Material<D>>, OnlineError> {

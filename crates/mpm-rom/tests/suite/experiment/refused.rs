@@ -1,6 +1,7 @@
 //! What is wrong with an experiment, by file and field.
 
 use mpm_rom::online::ReducedBody;
+use mpm_rom::training::TrainingError;
 
 use super::*;
 
@@ -102,6 +103,12 @@ fn what_no_reduced_run_can_have_is_refused_before_the_training() {
         ("step = 0.0050000001", "step = 0.003", "time.step"),
         (", step = 0.0050000001", "", "time.step"),
         ("kind = \"pic\"", "kind = \"apic\"", "transfer.kind"),
+        ("dimension = 2", "dimension = 2\ngravity_ramp = 0.1", "gravity_ramp"),
+        (
+            "courant = 0.5",
+            "courant = 0.5, stress_update = \"first\"",
+            "time.stress_update",
+        ),
         (law, "law = \"drucker-prager\", friction_angle = 30.0", "materials.law"),
     ]
     .into_iter()
@@ -168,4 +175,127 @@ fn a_scene_that_has_changed_since_its_runs_were_made_is_refused_with_its_file() 
     std::fs::remove_file(out.join(names::SCENE)).expect("removed");
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
     assert_eq!(rows.len(), 4);
+}
+
+#[test]
+fn instants_that_do_not_divide_a_frame_are_refused_before_anything_is_written() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace(
+        "cases = {",
+        "frames_between = { per_frame = 3, distance = 0.01 }\ncases = {",
+    );
+    let expected = "frames_between.per_frame: 3 instants per frame, which do not divide its 10 steps";
+    assert_not_begun(&text, &file, &directory.path().join("out"), expected);
+}
+
+#[test]
+fn training_data_of_another_experiment_are_refused() {
+    let (directory, file) = files();
+    let [own, other] = ["own", "other"].map(|name| directory.path().join(name));
+    let (train_own, scene) = ("train = [[1.0, 0.0], [3.0, 0.2]]", directory.path().join("strip.toml"));
+    let longer = SCENE.replace("upper = [2.0, 0.5]", "upper = [2.25, 0.5]");
+    let changes = [
+        (
+            train_own,
+            "train = [[1.0, 0.0]]",
+            "1 runs, where the experiment has 2 runs",
+        ),
+        (
+            train_own,
+            "train = [[1.0, 0.0], [3.0, 0.2], [1.0, 0.1]]",
+            "3 runs, where the experiment has 2 runs",
+        ),
+        (
+            train_own,
+            "train = [[1.0, 0.0], [3.0, 0.3]]",
+            "run 1 of [3.0, 0.3], where the experiment has [3.0, 0.2]",
+        ),
+        (
+            "title = \"A strip\"",
+            "title = \"A strip\"",
+            "72 points, where the experiment has 64 points",
+        ),
+    ];
+    let experiment = Experiment::parse(EXPERIMENT, &file).expect("sound");
+    train_one(&experiment, &own);
+    for (old, new, expected) in changes {
+        if old == new {
+            std::fs::write(&scene, &longer).expect("written");
+        }
+        train_one(
+            &Experiment::parse(&EXPERIMENT.replace(old, new), &file).expect("sound"),
+            &other,
+        );
+        std::fs::write(&scene, SCENE).expect("written");
+        let data = own.join(names::TRAINING_DATA);
+        std::fs::copy(other.join(names::TRAINING_DATA), &data).expect("copied");
+        let error = run::<2>(&experiment, &own, &mut |_, _| true)
+            .expect_err("other data")
+            .to_string();
+        assert!(error.starts_with(&format!("{}: {expected}", data.display())), "{error}");
+        std::fs::remove_dir_all(&other).expect("removed");
+    }
+    let error = train::<2>(&experiment, &own, &mut ()).expect_err("other data");
+    assert!(
+        matches!(error, ExperimentError::Training(TrainingError::OtherCheckpoint { .. })),
+        "as many runs of as many parameters: {error}"
+    );
+}
+
+#[test]
+fn runs_whose_steps_are_cut_are_refused() {
+    let (directory, file) = files();
+    let out = directory.path().join("out");
+    let scene = directory.path().join("strip.toml");
+    let experiment = Experiment::parse(EXPERIMENT, &file).expect("sound");
+    for (old, new, found, expected) in [
+        (
+            "interval = 0.05",
+            "interval = 0.05, series_interval = 0.013",
+            "48",
+            "40",
+        ),
+        ("end = 0.2,", "end = 0.2025,", "41", "40.5"),
+    ] {
+        assert!(SCENE.contains(old), "{old}");
+        std::fs::write(&scene, SCENE.replace(old, new)).expect("written");
+        let error = train::<2>(&experiment, &out, &mut ()).expect_err(new).to_string();
+        let expected = format!(
+            "{}: {found} time steps, where time.step = 0.0050000001 makes {expected}",
+            scene.display()
+        );
+        assert!(error.starts_with(&expected), "{error}");
+        assert!(!out.join(names::TRAINING_DATA).exists());
+    }
+}
+
+#[test]
+fn names_of_parameters_are_columns_of_their_own() {
+    let (directory, file) = files();
+    let out = directory.path().join("out");
+    let text = EXPERIMENT.replace("samples = [20, \"all\"]", "samples = [\"all\"]");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    train_one(&experiment, &out);
+    run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    let table = std::fs::read_to_string(out.join(names::RESULTS)).expect("a table");
+    let head = table.lines().next().expect("a head").split(',');
+    let columns = head.filter(|name| !experiment.parameters.iter().any(|own| own == name));
+    for name in columns.chain(["gravity", "a,b", "a\\nb", ""]) {
+        let message = message(("\"angle\"]\nkeys", &format!("\"{name}\"]\nkeys")));
+        assert!(message.starts_with("rom.toml, parameters.1: "), "{name}: {message}");
+    }
+}
+
+#[test]
+fn a_linear_manifold_of_more_coordinates_than_there_are_is_named_with_its_field() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("coordinates = 2", "coordinates = 9");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    train_one(&experiment, &out);
+    let error = run::<2>(&experiment, &out, &mut |_, _| true)
+        .expect_err("8 frames that move")
+        .to_string();
+    let expected = format!("{}, run.manifold: \"linear\": 9 coordinates: ", file.display());
+    assert!(error.starts_with(&expected), "{error}");
 }
