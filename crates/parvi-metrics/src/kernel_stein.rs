@@ -31,11 +31,16 @@ impl InverseMultiquadric {
     /// The kernel with offset c (a length) and exponent β.
     ///
     /// # Errors
-    /// [`MetricError::InvalidParameter`] unless c is positive and finite and −1 < β < 0, where the discrepancy detects
+    /// [`MetricError::InvalidParameter`] unless 1e-150 < c < 1e150 and −1 < β < 0, where the discrepancy detects
     /// non-convergence (Gorham & Mackey 2017, Theorem 8).
     pub fn new(offset: f64, exponent: f64) -> Result<Self, MetricError> {
-        let is_length = offset.is_finite() && offset > 0.0;
-        parameter("the offset of the kernel", offset, is_length, "positive and finite")?;
+        let is_usable = offset > 1e-150 && offset < 1e150;
+        parameter(
+            "the offset of the kernel",
+            offset,
+            is_usable,
+            "between 1e-150 and 1e150",
+        )?;
         let detects = exponent > -1.0 && exponent < 0.0;
         parameter("the exponent of the kernel", exponent, detects, "between -1 and 0")?;
         Ok(Self { offset, exponent })

@@ -150,7 +150,10 @@ fn bad_input_is_named() {
     assert!(matches!(error, MetricError::NonFiniteScore { index: 1, axis: 1, .. }));
     let error = kernel_stein_discrepancy(&cloud, &[[1e200; 2]; 2], &kernel).unwrap_err();
     assert!(matches!(error, MetricError::Overflow { .. }));
-    assert!(InverseMultiquadric::new(0.0, -0.5).is_err());
+    // Squares of the last two are no numbers to divide by.
+    for offset in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e200, 1e-200] {
+        assert!(InverseMultiquadric::new(offset, -0.5).is_err(), "{offset}");
+    }
     assert!(InverseMultiquadric::new(1.0, 0.5).is_err());
     let one = Cloud::new(&points[..1]).unwrap();
     assert_eq!(
