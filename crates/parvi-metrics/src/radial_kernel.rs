@@ -1,8 +1,10 @@
 //! The Gaussian (radial basis function) kernel and its median bandwidth.
 
-use crate::error::parameter;
+use crate::error::{finite, parameter};
 use crate::sorted::SortedSample;
 use crate::{Cloud, MetricError};
+
+const NAME: &str = "the median of the positive distances";
 
 /// Points that the median heuristic looks at, at most; the median of their half a million distances is known well enough.
 const MEDIAN_POINTS: usize = 1024;
@@ -39,22 +41,21 @@ impl RadialKernel {
     ///
     /// # Errors
     /// [`MetricError::TooFewPoints`] unless two distinct points have positive weight, [`MetricError::InvalidParameter`]
-    /// for a median outside the range of [`RadialKernel::new`].
+    /// for a median outside the range of [`RadialKernel::new`], [`MetricError::Overflow`] if a squared distance exceeds the range of `f64`.
     pub fn median_heuristic<const D: usize>(cloud: &Cloud<'_, D>) -> Result<Self, MetricError> {
         let (points, weights) = thinned(cloud);
         let (mut distances, mut products) = (Vec::new(), Vec::new());
         for (i, x) in points.iter().enumerate() {
             for (j, y) in points[..i].iter().enumerate() {
-                let (distance, product) = (mpm_tensor::vector::distance(x, y), weights[i] * weights[j]);
+                let distance = finite(NAME, mpm_tensor::vector::distance(x, y))?;
+                let product = weights[i] * weights[j];
                 if distance > 0.0 && product > 0.0 {
                     distances.push([distance]);
                     products.push(product);
                 }
             }
         }
-        let too_few = MetricError::TooFewPoints {
-            statistic: "the median of the positive distances",
-        };
+        let too_few = MetricError::TooFewPoints { statistic: NAME };
         let cloud = Cloud::weighted(&distances, &products)
             .map_err(|error| if error == MetricError::Empty { too_few } else { error })?;
         Self::new(SortedSample::along_axis(&cloud, 0).quantile(0.5))

@@ -109,6 +109,11 @@ fn bad_input_is_an_error() {
         RadialKernel::median_heuristic(&same),
         Err(MetricError::TooFewPoints { .. })
     ));
+    let far = [[0.0, 0.0], [1e200, 0.0]];
+    assert!(matches!(
+        RadialKernel::median_heuristic(&Cloud::new(&far).unwrap()),
+        Err(MetricError::Overflow { .. })
+    ));
     let one = Cloud::new(&[[1.0]]).unwrap();
     let kernel = RadialKernel::new(1.0).unwrap();
     assert!(matches!(
