@@ -68,7 +68,7 @@ fn cross_distances<const D: usize>(cloud: &Cloud<'_, D>, points: &Packed<D>, wei
 /// ED² = 2 Σ_ij w_i u_j |x_i − y_j| − Σ_ij w_i w_j |x_i − x_j| − Σ_ij u_i u_j |y_i − y_j| ≥ 0,
 ///
 /// symmetric, zero only if the two weighted clouds are the same measure; in one dimension 2 ∫ (F − G)² dx, computed in
-/// this form by sorting. Its unit is that of the points. If `second` is a sample that stands for a distribution, use
+/// this form by sorting. What rounding takes below 0 is 0. Its unit is that of the points. If `second` is a sample that stands for a distribution, use
 /// [`EnergyReference`], which removes the reference's own bias.
 ///
 /// Source: G. J. Székely, M. L. Rizzo, *Energy statistics: A class of statistics based on distances*, J. Stat. Plan.
@@ -85,10 +85,8 @@ pub fn energy_distance_squared<const D: usize>(
         return finite(NAME, squared_in_one_dimension(&first, &second));
     }
     let cross = (Compiled::of().cross_distances)(first, &Packed::new(second.points()), &PackedWeights::new(second));
-    finite(
-        NAME,
-        2.0 * cross - mean_pair_distance(first)? - mean_pair_distance(second)?,
-    )
+    let value = 2.0 * cross - mean_pair_distance(first)? - mean_pair_distance(second)?;
+    Ok(finite(NAME, value)?.max(0.0))
 }
 
 /// 2 ∫ (F − G)² dx, free of cancellation.
@@ -105,6 +103,7 @@ fn squared_in_one_dimension(first: &SortedSample, second: &SortedSample) -> f64 
 /// E|Y − Y'| / M, and a perfect cloud comes out at zero up to the reference's noise, so small values may be negative.
 ///
 /// Source: Székely & Rizzo 2013 as for [`energy_distance_squared`].
+#[derive(Clone, Debug)]
 pub struct EnergyReference<const D: usize> {
     mean_distance: f64,
     share: f64,
@@ -112,6 +111,7 @@ pub struct EnergyReference<const D: usize> {
 }
 
 /// The reference in the form that its dimension needs.
+#[derive(Clone, Debug)]
 enum Storage<const D: usize> {
     Line(SortedSample),
     Space { points: Packed<D>, weights: PackedWeights },

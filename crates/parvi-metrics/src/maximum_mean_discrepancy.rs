@@ -31,7 +31,7 @@ pub(crate) fn mean_kernel<const D: usize>(cloud: &Cloud<'_, D>, kernel: &RadialK
 ///
 /// MMD² = Σ_ij w_i w_j k(x_i, x_j) + Σ_ij u_i u_j k(y_i, y_j) − 2 Σ_ij w_i u_j k(x_i, y_j) ≥ 0,
 ///
-/// symmetric, without unit, zero only if the two weighted clouds are the same measure. If `second` is a sample that
+/// symmetric, without unit, zero only if the two weighted clouds are the same measure; what rounding takes below 0 is 0. If `second` is a sample that
 /// stands for a distribution, use [`DiscrepancyReference`]. O((M + N)²), in parallel and independent of the number of
 /// threads.
 ///
@@ -48,15 +48,14 @@ pub fn maximum_mean_discrepancy_squared<const D: usize>(
     let points = Packed::new(second.points());
     let function = pairs(kernel, first, &points);
     let cross = cross_sum(&function, &PackedWeights::new(first), &PackedWeights::new(second));
-    finite(
-        NAME,
-        mean_kernel(first, kernel) + mean_kernel(second, kernel) - 2.0 * cross,
-    )
+    let value = mean_kernel(first, kernel) + mean_kernel(second, kernel) - 2.0 * cross;
+    Ok(finite(NAME, value)?.max(0.0))
 }
 
 /// A reference sample y_1…y_N ~ p, prepared once and compared with many clouds: its own term is the U-statistic
 /// Σ_{i≠j} u_i u_j k(y_i, y_j) / (1 − Σ u_j²), unbiased for E k(Y, Y') (Gretton et al. 2012, Lemma 6); the cloud's is the
 /// V-statistic. M independent particles then have the expectation (1 − E k(Y, Y')) / M; small values may be negative.
+#[derive(Clone, Debug)]
 pub struct DiscrepancyReference<const D: usize> {
     kernel: RadialKernel,
     mean_kernel: f64,

@@ -15,6 +15,7 @@ const TILE_GROUPS: usize = TILE / LANES;
 /// Vectors in groups of four, axis by axis: `groups[g][axis][lane]` is the coordinate of vector `g · 4 + lane`.
 ///
 /// The last group is padded with a vector of its own, so that padding causes no overflow of its own.
+#[derive(Clone, Debug)]
 pub(crate) struct Packed<const D: usize> {
     groups: Vec<[Lanes; D]>,
 }
@@ -84,6 +85,7 @@ impl<F: Fn(Lanes) -> Lanes + Sync, const D: usize> PairFunction for OfDistance<'
 }
 
 /// Normalised weights of rows or columns, padded with zeros to whole groups.
+#[derive(Clone, Debug)]
 pub(crate) struct PackedWeights {
     count: usize,
     lanes: Vec<Lanes>,

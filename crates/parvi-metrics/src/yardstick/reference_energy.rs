@@ -3,6 +3,7 @@
 use crate::{Cloud, EnergyReference, GaussianEnergy, MetricError, effective_sample_size};
 
 /// The energy distance from a target, exact or from reference points.
+#[derive(Clone, Debug)]
 pub enum ReferenceEnergy<const D: usize> {
     /// Exact.
     Gaussian(GaussianEnergy<D>),

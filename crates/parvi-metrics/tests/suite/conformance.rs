@@ -1,7 +1,7 @@
 //! What every metric has in common: equal weights are no weights, integer weights are copies, distances are symmetric,
 //! zero between equal clouds, and blind to translation and, where they are isotropic, to rotation.
 
-use crate::common::{copies, points_strategy};
+use crate::common::{copies, normal_points, points_strategy};
 use mpm_tensor::Matrix;
 use parvi_metrics::{
     Cloud, CloudMoments, Directions, DiscrepancyReference, EnergyReference, GaussianDiscrepancy, GaussianEnergy,
@@ -225,4 +225,19 @@ fn the_number_of_threads_does_not_change_a_bit() {
     let one = bits(values(1));
     assert_eq!(one, bits(values(2)));
     assert_eq!(one, bits(values(7)));
+}
+
+/// The same points in another order: the sums differ by rounding, of either sign.
+#[test]
+fn rounding_makes_no_distance_negative() {
+    for count in [64, 257, 1000] {
+        let points = normal_points::<3>(count, 11);
+        let reversed: Vec<[f64; 3]> = points.iter().rev().copied().collect();
+        let (cloud, other) = (Cloud::new(&points).unwrap(), Cloud::new(&reversed).unwrap());
+        for second in [&cloud, &other] {
+            for (name, value) in distances(&cloud, second) {
+                assert!((0.0..1e-14).contains(&value), "{name} of {count}: {value:e}");
+            }
+        }
+    }
 }
