@@ -15,12 +15,12 @@ pub enum Masses {
 }
 
 impl Masses {
-    /// Mass m_p.
+    /// Mass m_p; not a number for a particle that has none.
     #[inline(always)]
     pub fn get(&self, particle: usize) -> f64 {
         match self {
             Self::Equal(mass) => *mass,
-            Self::Each(masses) => masses[particle],
+            Self::Each(masses) => masses.get(particle).copied().unwrap_or(f64::NAN),
         }
     }
 }

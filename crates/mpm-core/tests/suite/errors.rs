@@ -285,3 +285,13 @@ fn a_lattice_names_the_particle_and_recovers() {
     lattice.rebuild(&[[0.25, 0.5]]).unwrap();
     assert_eq!(lattice.node_count(), 3);
 }
+
+/// The fields are anyone's to change.
+#[test]
+fn sums_over_particles_without_a_mass_are_no_numbers() {
+    let mut particles = Particles::at_rest(vec![[0.0, 1.0], [1.0, 2.0]], 2.0);
+    particles.masses = Masses::Each(vec![1.0]);
+    assert!(particles.kinetic_energy().is_nan());
+    assert!(particles.momentum()[0].is_nan());
+    assert!(particles.angular_momentum((0, 1)).is_nan());
+}
