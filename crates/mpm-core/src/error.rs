@@ -131,6 +131,12 @@ pub(crate) fn within(field: &'static str, value: f64, is_within: bool, expected:
     Err(MpmError::InvalidParameter { field, value, expected })
 }
 
+/// The same for coordinates, with the first that is not finite.
+pub(crate) fn finite(field: &'static str, coordinates: &[f64]) -> Result<(), MpmError> {
+    let bad = coordinates.iter().find(|coordinate| !coordinate.is_finite());
+    bad.map_or(Ok(()), |&value| within(field, value, false, "finite"))
+}
+
 /// The same for 0 ≤ value < ∞.
 pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<(), MpmError> {
     within(

@@ -23,6 +23,7 @@ pub use signed_distance::{HalfSpace, SignedDistance};
 pub use surface::{Extents, ON_A_SURFACE};
 
 use self::folds::Folds;
+use crate::error::finite;
 use crate::{Basis, GridNode, MpmError};
 
 /// The grid when a boundary is asked: after forces, before particles move.
@@ -130,7 +131,9 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
     fn check(&self) -> Result<(), MpmError> {
         for wall in &self.walls {
             wall.contact.check()?;
+            finite("point", &wall.point)?;
             signed_distance::check_normal(&wall.normal)?;
+            finite("velocity", &wall.velocity)?;
         }
         for surface in &self.surfaces {
             surface.check()?;
@@ -138,6 +141,7 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
         for obstacle in &self.obstacles {
             obstacle.contact.check()?;
             obstacle.shape.check()?;
+            finite("velocity", &obstacle.velocity)?;
         }
         Ok(())
     }

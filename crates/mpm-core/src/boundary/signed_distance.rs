@@ -1,7 +1,7 @@
 use mpm_tensor::vector;
 
 use crate::MpmError;
-use crate::error::within;
+use crate::error::{finite, within};
 
 /// The surface of a rigid body.
 pub trait SignedDistance<const D: usize>: Send + Sync {
@@ -42,6 +42,7 @@ pub(super) fn check_normal<const D: usize>(normal: &[f64; D]) -> Result<(), MpmE
 
 impl<const D: usize> SignedDistance<D> for HalfSpace<D> {
     fn check(&self) -> Result<(), MpmError> {
+        finite("point", &self.point)?;
         check_normal(&self.normal)
     }
 

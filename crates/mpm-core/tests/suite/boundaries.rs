@@ -378,6 +378,34 @@ fn a_boundary_that_is_not_finite_is_an_error_and_moves_nothing() {
 }
 
 #[test]
+fn surfaces_without_a_place_or_a_velocity_are_refused() {
+    for value in [f64::NAN, f64::INFINITY] {
+        for (point, velocity, field) in [([value, 0.0], [0.0; 2], "point"), ([0.0; 2], [0.0, value], "velocity")] {
+            let floor = Plane {
+                point,
+                ..wall(1, 0.0, Contact::Slip, velocity)
+            };
+            let below = Obstacle {
+                shape: Box::new(HalfSpace {
+                    point,
+                    normal: [0.0, 1.0],
+                }),
+                contact: Contact::Slip,
+                velocity,
+            };
+            let walled = Boundaries::new(vec![floor], Vec::new());
+            let blocked = Boundaries::new(Vec::new(), vec![below]);
+            for boundaries in [walled, blocked] {
+                match block(boundaries).step(&free(1e-3)) {
+                    Err(MpmError::InvalidParameter { field: named, .. }) => assert_eq!(named, field),
+                    other => panic!("{field} {value}: {other:?}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn surfaces_without_a_unit_normal_or_a_friction_are_refused() {
     let rough = |friction| Contact::Separate { friction };
     let floor = |contact, normal| Plane {
