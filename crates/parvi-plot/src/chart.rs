@@ -181,6 +181,7 @@ impl Chart {
                 }
                 let pairs = series.x.iter().zip(&series.y).enumerate();
                 for (index, (x, y)) in pairs.filter(|(_, (x, y))| plottable(**x) && plottable(**y)) {
+                    drawable |= panel.x.kind.can_show(*x) && panel.y.kind.can_show(*y);
                     abscissas.push(*x);
                     ordinates.push(*y);
                     if let Some(bar) = series.bars.get(index) {
@@ -188,7 +189,6 @@ impl Chart {
                     }
                 }
             }
-            drawable |= !abscissas.is_empty();
             ordinates.extend(panel.levels.iter().map(|level| level.value));
             let for_zeros = [(&panel.x, &abscissas), (&panel.y, &ordinates)].into_iter();
             let for_zeros =

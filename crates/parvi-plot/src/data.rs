@@ -6,6 +6,7 @@ use super::scale::{AxisKind, Scale, plottable};
 
 /// Why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlotError {
     /// There is nothing to draw.
     #[error("{what}: nothing to draw")]

@@ -5,6 +5,9 @@ use super::text::{decimal, power_of_ten};
 /// Values beyond this magnitude are not drawn.
 const LARGEST: f64 = 1e300;
 
+/// Values up to this one have no place on a logarithmic axis.
+const LEAST: f64 = 1e-300;
+
 /// The factor between the ends of an axis above which it is better logarithmic.
 const LOGARITHMIC_FROM: f64 = 30.0;
 
@@ -23,6 +26,13 @@ pub enum AxisKind {
     Linear,
     /// Equal factors; values that are not positive are left out.
     Logarithmic,
+}
+
+impl AxisKind {
+    /// Whether a value has a place on such an axis.
+    pub(crate) fn can_show(self, value: f64) -> bool {
+        plottable(value) && (self != Self::Logarithmic || value > LEAST)
+    }
 }
 
 /// An axis of a figure.
@@ -76,14 +86,14 @@ impl Scale {
         for value in values.into_iter().filter(|&value| plottable(value)) {
             low = low.min(value);
             high = high.max(value);
-            if value > 1e-300 {
+            if value > LEAST {
                 smallest_positive = smallest_positive.min(value);
             }
         }
         let logarithmic = match kind {
             AxisKind::Linear => false,
             AxisKind::Logarithmic => true,
-            AxisKind::Automatic => low > 1e-300 && high / low > LOGARITHMIC_FROM,
+            AxisKind::Automatic => low > LEAST && high / low > LOGARITHMIC_FROM,
         };
         if !logarithmic {
             return Scale::linear(low, high, padding);
@@ -108,7 +118,7 @@ impl Scale {
         for value in values.into_iter().filter(|&value| plottable(value)) {
             least = least.min(value);
             most = most.max(value);
-            if value > 1e-300 {
+            if value > LEAST {
                 positive = positive.min(value);
             }
         }
@@ -164,7 +174,7 @@ impl Scale {
 
     /// Where `value` lies on the axis, 0 at its start and 1 at its end; `None` for values that cannot be drawn.
     pub fn fraction(&self, value: f64) -> Option<f64> {
-        if !plottable(value) || (self.logarithmic && value <= 1e-300) {
+        if !plottable(value) || (self.logarithmic && value <= LEAST) {
             return None;
         }
         let position = if self.logarithmic { value.log10() } else { value };

@@ -16,6 +16,7 @@ pub use summary::{Summary, summarize, weighted_quantile};
 
 /// Why a statistic could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StatisticsError {
     /// There is nothing to compute from.
     #[error("{what}: no values")]

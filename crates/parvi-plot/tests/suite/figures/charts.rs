@@ -168,6 +168,14 @@ fn small_multiples_share_styles_and_legend() {
     plot.panels[0].guides[0].curve.x.pop();
     assert!(matches!(multiples(&plot), Err(PlotError::Size { .. })));
     assert_empty(multiples(&MultiplesPlot::default()));
+    let only = |x: f64, y: f64| MultiplesPanel::new("", [LineSeries::through("line", [(x, y)])]);
+    for (x, y) in [(-1.0, 1.0), (1.0, 0.0), (1.0, f64::NAN)] {
+        assert_empty(multiples(
+            &MultiplesPlot::logarithmic("x", "y").with_panels([only(x, y)]),
+        ));
+    }
+    let seen = MultiplesPlot::logarithmic("x", "y").with_panels([only(1.0, 0.0), only(1.0, 1.0)]);
+    assert!(multiples(&seen).is_ok());
 }
 
 #[test]
