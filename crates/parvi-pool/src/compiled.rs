@@ -65,6 +65,8 @@ pub fn explore<const D: usize>(
 /// x ← (Σ₊ c_m/|x − y_m|)⁻¹ (Σ₊ c_m y_m/|x − y_m| − Σ₋ c_m (x − y_m)/|x − y_m| + 1/M Σ_j (x − x_j)/|x − x_j|). It starts from a resample in the order of a tree of
 /// bisected boxes, so that every part of space gets its share of the particles. Empty where nothing has weight. `offset` in [0, 1) shifts
 /// that resample.
+///
+/// Of n points distances below 1/n, in standard deviations, hardly count as smaller: there are to be many more points than particles.
 pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
     (Compiled::of().condense)(measure, count, offset)
 }

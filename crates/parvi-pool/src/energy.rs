@@ -38,6 +38,7 @@ const TOGETHER: usize = 16;
 /// |x| is c_D times the mean of |⟨u, x⟩| over directions u, c_D = √π Γ((D + 1)/2)/Γ(D/2), so that the distance is that of projections, here on 64 of them at most,
 /// always the same (A. Feuerverger, 1993; L. Baringhaus, C. Franz, *On a new multivariate two-sample test*, J. Multivar. Anal. 88, 2004). Along every one the
 /// measure is counted in bins once, and M particles then take O(M log M).
+#[derive(Clone, Debug)]
 pub struct EnergyDistance<const D: usize> {
     frame: Frame<D>,
     projections: Vec<Projection<D>>,
@@ -102,6 +103,7 @@ impl<const D: usize> Measure<D> {
 }
 
 /// The measure along a direction: Σ c and Σ c s below the bottom of every bin, and in all; and its [noise](EnergyDistance::noise).
+#[derive(Clone, Debug)]
 struct Projection<const D: usize> {
     direction: [f64; D],
     below: Vec<[f64; 2]>,

@@ -175,7 +175,8 @@ impl<const D: usize> Pool<D> {
         if axis >= D || !(0.0..=1.0).contains(&probability) {
             return f64::NAN;
         }
-        let mut order: Vec<usize> = (0..self.positions.len()).filter(|&i| self.weights[i] > 0.0).collect();
+        let count = self.positions.len().min(self.weights.len());
+        let mut order: Vec<usize> = (0..count).filter(|&i| self.weights[i] > 0.0).collect();
         order.sort_by(|&a, &b| self.positions[a][axis].total_cmp(&self.positions[b][axis]));
         let mut sum = 0.0;
         for &index in &order {
