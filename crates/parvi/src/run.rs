@@ -204,6 +204,7 @@ pub trait Observer {
 }
 
 /// Watches nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Silent;
 
 impl Observer for Silent {}
