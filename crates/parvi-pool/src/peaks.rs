@@ -4,22 +4,22 @@ use mpm_tensor::Matrix;
 
 use crate::lanes::{Group, LANES, Lanes, packed};
 
-/// Neighbours that are all lower: where a function rises evenly, all of so many are with probability 2⁻¹².
-const NEIGHBOURS: usize = 12;
+/// Neighbours of a peak that are all lower: where a function rises evenly, all of so many are with probability 2⁻¹².
+pub(super) const NEIGHBOURS: usize = 12;
 
 /// Points that are compared with each other at most: the first ones.
 const MOST: usize = 4096;
 
-/// The points of which `is_wanted` and whose twelve nearest neighbours at least are lower, nearest in coordinates in which `whitener` is applied; those with most lower
-/// neighbours first.
+/// The points of which `is_wanted`, with how many of their nearest neighbours are all lower, nearest in coordinates in which `whitener` is applied; those with most
+/// first.
 ///
 /// How far the nearest higher point is tells centres of clusters apart: A. Rodriguez, A. Laio, *Clustering by fast search and find of density peaks*, Science 344, 2014.
-pub(super) fn peaks<const D: usize>(
+pub(super) fn by_prominence<const D: usize>(
     points: &[[f64; D]],
     logs: &[f64],
     whitener: &Matrix<D>,
     is_wanted: impl Fn(usize) -> bool,
-) -> Vec<usize> {
+) -> Vec<(usize, usize)> {
     let count = points.len().min(MOST);
     let white: Vec<[f64; D]> = points[..count].iter().map(|x| whitener.apply(x)).collect();
     let wanted: Vec<usize> = (0..count).filter(|&i| logs[i].is_finite() && is_wanted(i)).collect();
@@ -31,13 +31,9 @@ pub(super) fn peaks<const D: usize>(
     let lower = mpm_parallel::map(wanted.iter(), &|&index| {
         lower_neighbours(&groups, padded, &white[index], logs[index])
     });
-    let mut peaks: Vec<(usize, usize)> = lower
-        .into_iter()
-        .zip(wanted)
-        .filter(|(lower, _)| *lower >= NEIGHBOURS)
-        .collect();
-    peaks.sort_unstable_by_key(|&(lower, index)| (std::cmp::Reverse(lower), index));
-    peaks.into_iter().map(|(_, index)| index).collect()
+    let mut ranked: Vec<(usize, usize)> = wanted.into_iter().zip(lower).collect();
+    ranked.sort_unstable_by_key(|&(index, lower)| (std::cmp::Reverse(lower), index));
+    ranked
 }
 
 /// How many points are nearer than the nearest higher one, but for the point itself.
@@ -79,6 +75,17 @@ mod tests {
     use mpm_tensor::vector;
 
     use super::*;
+
+    fn peaks<const D: usize>(
+        points: &[[f64; D]],
+        logs: &[f64],
+        whitener: &Matrix<D>,
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Vec<usize> {
+        let ranked = by_prominence(points, logs, whitener, is_wanted);
+        let peaks = ranked.into_iter().take_while(|(_, lower)| *lower >= NEIGHBOURS);
+        peaks.map(|(index, _)| index).collect()
+    }
 
     /// A narrow normal law far in the tail of a wide one.
     #[test]

@@ -10,9 +10,9 @@ use crate::flanks::{flanks, rings};
 use crate::fold::Fold;
 use crate::lanes::packed;
 use crate::mixture::Mixture;
-use crate::peaks::peaks;
+use crate::peaks::{NEIGHBOURS, by_prominence};
 use crate::sample::{moments, root};
-use crate::scout::{about, wide};
+use crate::scout::about;
 use crate::student::Kernel;
 use crate::summit::Summit;
 use crate::weights::tempered;
@@ -23,8 +23,8 @@ const WIDTHS: [(f64, f64); 2] = [(1.25, 0.2), (3.0, 0.2)];
 /// The same for a round kernel, over the largest spread along any direction.
 const ROUND: (f64, f64) = (1.1, 0.15);
 
-/// Share of the wide law that is as wide as the frame.
-const OF_FRAME: f64 = 0.45;
+/// Widths over that of the frame, and shares: in a law as wide as the frame narrow pieces within it are met, in a wider one only wide pieces, which scouts climb from afar.
+const WIDTHS_OF_FRAME: [(f64, f64); 3] = [(1.0, 0.315), (4.0, 0.09), (16.0, 0.045)];
 
 /// What the wide law is taken to cover, over what it would by its share: tails that are heavier than a kernel's surprise nobody.
 const FLOOR: f64 = 1e-3;
@@ -44,8 +44,9 @@ const IDLE: usize = 24;
 const IDLE_FROM_PEAKS: usize = 8;
 const IDLE_FROM_FLANKS: usize = 8;
 
-/// Places at which scores are asked where they point to, over the points drawn at a time.
-const OF_SCORES: f64 = 0.5;
+/// Places at which scores are asked where they point to, over the points drawn at a time, and share of them in rings about the kernels.
+const OF_SCORES: f64 = 0.15;
+const IN_RINGS: f64 = 0.3;
 
 /// p/(Z q) below which a point is not of what is covered: q has heavier tails than most targets.
 const FOREIGN: f64 = 0.2;
@@ -84,9 +85,14 @@ pub(super) fn search<const D: usize>(
         drawn += points.len() as u64;
         let whitener = factor.lower_triangular_inverse().unwrap_or(Matrix::IDENTITY);
         let mut new = covered.climb_from_surprises(density, &points, &logs, WIDEST * spread);
-        new.extend(covered.climb_from_peaks(density, &points, &logs, &whitener, WIDEST * spread));
+        let foreign = covered.foreign(&points, &logs);
+        let ranked = by_prominence(&points, &logs, &whitener, |index| foreign[index]);
+        new.extend(covered.climb_from_peaks(density, &points, &ranked, WIDEST * spread));
+        let foreign = covered.foreign(&points, &logs);
+        let prominent = ranked.iter().filter(|(index, _)| foreign[*index]);
+        let prominent: Vec<[f64; D]> = prominent.map(|&(index, _)| points[index]).collect();
         let scored = (OF_SCORES * count as f64) as usize;
-        new.extend(covered.climb_from_flanks(density, (&points, &logs), (scored, rng.random()), WIDEST * spread));
+        new.extend(covered.climb_from_flanks(density, &prominent, (scored, rng.random()), WIDEST * spread));
         if new.is_empty() {
             break;
         }
@@ -120,7 +126,11 @@ fn known<const D: usize>(folds: &[Fold<D>; 2], found: &[Summit<D>]) -> Option<Kn
     let kernel = |factor, share| Kernel { centre, factor, share };
     let mut kernels = WIDTHS.map(|(width, share)| kernel(factor * width, share)).to_vec();
     kernels.push(kernel(Matrix::IDENTITY * (ROUND.0 * spread), ROUND.1));
-    kernels.extend(scaled(&wide(), OF_FRAME));
+    kernels.extend(WIDTHS_OF_FRAME.map(|(width, share)| Kernel {
+        centre: [0.0; D],
+        factor: Matrix::IDENTITY * width,
+        share,
+    }));
     // No kernel of it is fitted.
     Some(Known {
         law: Mixture::new(kernels)?.with_core(0),
@@ -221,38 +231,31 @@ impl<const D: usize> Covered<D> {
         found
     }
 
-    /// Sends scouts from foreign points that are higher than all about them, and covers what they find: far out the flank of a narrow piece is lower than the tails of
+    /// Sends scouts from foreign points that are higher than all about them, the first of those `ranked`, and covers what they find: far out the flank of a narrow piece is lower than the tails of
     /// what is covered, and higher than what is about it.
     fn climb_from_peaks(
         &mut self,
         density: &mut Density<'_, D>,
         points: &[[f64; D]],
-        logs: &[f64],
-        whitener: &Matrix<D>,
+        ranked: &[(usize, usize)],
         widest: f64,
     ) -> Vec<Summit<D>> {
-        let foreign = self.foreign(points, logs);
-        let starts = peaks(points, logs, whitener, |index| foreign[index]);
-        self.climb(
-            density,
-            starts.iter().map(|&start| &points[start]),
-            IDLE_FROM_PEAKS,
-            widest,
-        )
+        let peaks = ranked.iter().take_while(|(_, lower)| *lower >= NEIGHBOURS);
+        let starts = peaks.map(|&(index, _)| &points[index]);
+        self.climb(density, starts, IDLE_FROM_PEAKS, widest)
     }
 
     /// Sends scouts from where the score points to none of the kernels, and covers what they find: another piece outweighs their tails there, however low its own is. One score tells what a way
-    /// uphill takes several of. Asked are `most` scores, half of them at foreign points that were drawn, the others in rings about the kernels.
+    /// uphill takes several of. Asked are `most` scores, at the most prominent foreign points and in rings about the kernels.
     fn climb_from_flanks(
         &mut self,
         density: &mut Density<'_, D>,
-        (points, logs): (&[[f64; D]], &[f64]),
+        prominent: &[[f64; D]],
         (most, seed): (usize, u64),
         widest: f64,
     ) -> Vec<Summit<D>> {
-        let foreign = self.foreign(points, logs);
-        let drawn = points.iter().zip(foreign).filter(|(_, is_foreign)| *is_foreign);
-        let mut places: Vec<[f64; D]> = drawn.take(most / 2).map(|(x, _)| *x).collect();
+        let of_drawn = most - (IN_RINGS * most as f64) as usize;
+        let mut places = prominent[..of_drawn.min(prominent.len())].to_vec();
         places.extend(rings(&self.mixture, most - places.len(), seed));
         let scores = density.scores(&places);
         let starts = flanks(&self.kernels, &places, &scores);
