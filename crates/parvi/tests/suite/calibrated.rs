@@ -159,6 +159,7 @@ fn without_shifts_the_body_moves_far_less() {
     let spread = |shifts| {
         // Hat functions leave a tremor on any one lattice (docs/theory.md, section 8); quadratic splines do not.
         let options = |steps| MpmOptions {
+            survey: false,
             basis: BasisChoice::Quadratic,
             shifts,
             steps: Some(steps),

@@ -119,6 +119,7 @@ fn a_score_that_is_not_a_number_is_an_error_with_its_place() {
     let frame = Frame::identity();
     let reporting = MpmOptions {
         non_finite_scores: NonFiniteScores::Report,
+        survey: false,
         ..MpmOptions::default()
     };
     let errors = [
