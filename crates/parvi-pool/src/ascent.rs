@@ -11,8 +11,8 @@ const DIFFERENCE: f64 = 1e-5;
 /// The way ends where a step would raise log p by less than this.
 const REST: f64 = 0.02;
 
-/// Longest step in units of the frame.
-const REACH: f64 = 200.0;
+/// Widest standard deviation that a curvature may tell of, in units of the frame.
+const WIDEST: f64 = 200.0;
 
 /// Evaluations on the way, over D + 2, which a Newton step takes.
 const STEPS: usize = 12;
@@ -55,13 +55,13 @@ pub(super) fn ascend<const D: usize>(
         score: [0.0; D],
     };
     // Before anything is known of the curvature.
-    let mut metric = Matrix::IDENTITY * (REACH * REACH);
+    let mut metric = Matrix::IDENTITY * (WIDEST * WIDEST);
     let mut summit = None;
     loop {
         let length = DIFFERENCE * vector::maximum_norm(&place.point).max(1.0);
         let (score, curvature) = local(density, &place.point, &Matrix::IDENTITY, length);
         place.score = score;
-        if let Some(here) = Summit::new(place.point, place.log_density, &curvature, REACH) {
+        if let Some(here) = Summit::new(place.point, place.log_density, &curvature, WIDEST) {
             (metric, summit) = (here.covariance, Some(here));
         } else if curvature != Matrix::ZERO {
             return summit;
@@ -82,7 +82,7 @@ pub(super) fn ascend<const D: usize>(
         }
         // Where the density is flat but for kinks, what the way has taught stands for the curvature.
         let learned = SymmetricEigen::new(&metric).map(|eigen| eigen.map(f64::recip));
-        summit = learned.and_then(|learned| Summit::new(place.point, place.log_density, &learned, REACH));
+        summit = learned.and_then(|learned| Summit::new(place.point, place.log_density, &learned, WIDEST));
     }
 }
 
@@ -97,7 +97,9 @@ impl<const D: usize> Place<D> {
     /// Where a step of this metric leads; `None` where none would raise log p by enough.
     fn next(&self, density: &mut Density<'_, D>, metric: &Matrix<D>) -> Option<Self> {
         let step = metric.apply(&self.score);
-        let step = vector::scale(&step, (REACH / vector::norm(&step).max(f64::MIN_POSITIVE)).min(1.0));
+        // As far as to the centre of the frame, or by its width: farther on there are other pieces.
+        let longest = vector::norm(&self.point).max(1.0);
+        let step = vector::scale(&step, (longest / vector::norm(&step).max(f64::MIN_POSITIVE)).min(1.0));
         let rise = vector::dot(&step, &self.score);
         if rise.is_nan() || rise < 2.0 * REST {
             return None;
