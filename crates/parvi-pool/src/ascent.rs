@@ -38,7 +38,7 @@ const MISJUDGED: f64 = 100.0;
 ///
 /// Y. Dauphin et al., *Identifying and attacking the saddle point problem*, NIPS 2014, for |H|; J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed., Eqs. 6.17 and 6.20; A. S. Lewis,
 /// M. L. Overton, *Nonsmooth optimization via quasi-Newton methods*, Math. Program. 141, 2013: with lengths t that leave no steep slope, kinks are climbed like ridges. `None` where the start
-/// has no density or no curvature, and where the way meets a place that is known.
+/// has no density or is flat, and where the way meets a place that is known.
 pub(super) fn ascend<const D: usize>(
     density: &mut Density<'_, D>,
     start: &[f64; D],
