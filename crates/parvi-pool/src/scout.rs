@@ -20,7 +20,7 @@ const SEVERAL: f64 = 0.1;
 /// share, for rounds go along ridges more cheaply.
 const FEWEST_BENT: usize = 6;
 const BENT: f64 = 1.0 / 3.0;
-const ALONG_RIDGES: f64 = 0.5;
+const ALONG_RIDGES: f64 = 0.25;
 
 /// Distances from a summit, in standard deviations of the normal approximation there, at which scouts set out.
 const RINGS: [f64; 3] = [5.0, 12.0, 30.0];
@@ -38,7 +38,7 @@ const WIDE: f64 = 0.5;
 /// Width of the kernel that stands for all summits, over their spread.
 const APART: f64 = 1.5;
 
-/// Log masses below the largest by more than this are left out.
+/// Summits whose log mass is below the largest by more than this get no kernel, and no scouts set out from them.
 const LIGHTEST: f64 = 20.0;
 
 /// What the scouts say.
@@ -73,7 +73,7 @@ pub(super) fn scout<const D: usize>(density: &mut Density<'_, D>, evaluations: u
     kernels.iter_mut().for_each(|kernel| kernel.share *= narrow);
     let mut far = wide();
     if summits.len() > 1 {
-        far.push(spread(&summits));
+        far.push(spread(summits.iter()));
     }
     let total: f64 = far.iter().map(|kernel| kernel.share).sum();
     kernels.extend(far.into_iter().map(|kernel| Kernel {
@@ -95,10 +95,11 @@ fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed:
     let starts = law.draws(evaluations as usize / (D + 2) + FEWEST, seed);
     for (scout, drawn) in starts.into_iter().enumerate() {
         let known = summits.len();
+        let heavy = heavy(&summits);
         let start = match scout % 3 {
             _ if scout == 0 => [0.0; D],
-            1 if known > 0 => ringed(&summits[scout / 3 % known], &drawn, RINGS[scout / 3 % RINGS.len()]),
-            2 if known > 1 => apart(&summits, &drawn, SHELLS[scout / 3 % SHELLS.len()]),
+            1 if !heavy.is_empty() => ringed(heavy[scout / 3 % heavy.len()], &drawn, RINGS[scout / 3 % RINGS.len()]),
+            2 if heavy.len() > 1 => apart(&heavy, &drawn, SHELLS[scout / 3 % SHELLS.len()]),
             _ => drawn,
         };
         let is_known = |place: &[f64; D], log: f64| summits.iter().any(|summit| summit.explains(place, log));
@@ -123,8 +124,8 @@ fn are_on_ridges<const D: usize>(summits: &[Summit<D>]) -> bool {
 }
 
 /// The normal law of the summits' places, wider.
-fn spread<const D: usize>(summits: &[Summit<D>]) -> Kernel<D> {
-    let points: Vec<[f64; D]> = summits.iter().map(|summit| summit.point).collect();
+fn spread<'a, const D: usize>(summits: impl Iterator<Item = &'a Summit<D>>) -> Kernel<D> {
+    let points: Vec<[f64; D]> = summits.map(|summit| summit.point).collect();
     let (mean, covariance) = moments(&points, &vec![1.0; points.len()]);
     Kernel {
         centre: mean,
@@ -134,8 +135,8 @@ fn spread<const D: usize>(summits: &[Summit<D>]) -> Kernel<D> {
 }
 
 /// A place where the summits' spread, stretched to so many times the length of a normal law's draws, has `drawn` in the direction.
-fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D], shell: f64) -> [f64; D] {
-    let Kernel { centre, factor, .. } = spread(summits);
+fn apart<const D: usize>(summits: &[&Summit<D>], drawn: &[f64; D], shell: f64) -> [f64; D] {
+    let Kernel { centre, factor, .. } = spread(summits.iter().copied());
     let direction = vector::scale(
         drawn,
         shell * (D as f64).sqrt() / vector::norm(drawn).max(f64::MIN_POSITIVE),
@@ -143,13 +144,20 @@ fn apart<const D: usize>(summits: &[Summit<D>], drawn: &[f64; D], shell: f64) ->
     vector::add(&centre, &factor.apply(&direction))
 }
 
+fn heaviest<const D: usize>(summits: &[Summit<D>]) -> f64 {
+    summits.iter().map(Summit::log_mass).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Those that are not far lighter than the heaviest.
+fn heavy<const D: usize>(summits: &[Summit<D>]) -> Vec<&Summit<D>> {
+    let least = heaviest(summits) - LIGHTEST;
+    summits.iter().filter(|summit| summit.log_mass() > least).collect()
+}
+
 /// Kernels at summits, half of whose shares are equal and half follow Laplace's masses p(x) (2π)^{D/2} / √det H.
 pub(super) fn about<const D: usize>(summits: &[Summit<D>]) -> Vec<Kernel<D>> {
-    let top = summits.iter().map(Summit::log_mass).fold(f64::NEG_INFINITY, f64::max);
-    let heavy: Vec<&Summit<D>> = summits
-        .iter()
-        .filter(|summit| summit.log_mass() > top - LIGHTEST)
-        .collect();
+    let heavy = heavy(summits);
+    let top = heaviest(summits);
     let total: f64 = heavy.iter().map(|summit| (summit.log_mass() - top).exp()).sum();
     let kernel = |summit: &Summit<D>, (stretch, share): (f64, f64)| Kernel {
         centre: summit.point,
