@@ -4,6 +4,7 @@
 
 #![allow(clippy::print_stdout)]
 
+use mpm_tensor::vector;
 use parvi::{MpmOptions, Run, Silent};
 use parvi_metrics::{Cloud, ModeMasses};
 use parvi_targets::{CatalogueTarget, Frame, GaussianMixture, Mode};
@@ -18,15 +19,7 @@ fn modes<const D: usize>(seed: u64) -> Vec<Mode<D>> {
     let mut modes = Vec::<Mode<D>>::new();
     while modes.len() < 8 {
         let centre = std::array::from_fn(|_| rng.random_range(-5.0..5.0));
-        let distance = |mode: &Mode<D>| {
-            let squares = mode
-                .centre
-                .iter()
-                .zip(&centre)
-                .map(|(a, b): (&f64, &f64)| (a - b).powi(2));
-            squares.sum::<f64>().sqrt()
-        };
-        if modes.iter().all(|mode| distance(mode) > APART) {
+        if modes.iter().all(|mode| vector::distance(&mode.centre, &centre) > APART) {
             modes.push(Mode {
                 centre,
                 width: WIDTH,
