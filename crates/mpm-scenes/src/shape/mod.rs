@@ -40,8 +40,12 @@ pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {
 
     /// The unit vector along which the distance grows, away from the shape: ∇d / |∇d|, by central differences unless a shape knows better. Zero
     /// where there is none, as in the centre of a ball.
+    ///
+    /// Differences are over a millionth of the largest coordinate, or of the shape's least side where that is shorter, as it is far from the origin.
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
-        let step = 1e-6 * x.iter().fold(1e-3, |largest: f64, c| largest.max(c.abs()));
+        let far = x.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+        let least = self.bounds().sides().into_iter().fold(f64::INFINITY, f64::min);
+        let step = (1e-6 * far.max(1e-3).min(least)).max(64.0 * f64::EPSILON * far);
         unit(std::array::from_fn(|a| {
             let (mut above, mut below) = (*x, *x);
             above[a] += step;

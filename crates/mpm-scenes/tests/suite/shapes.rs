@@ -105,6 +105,28 @@ fn normals_of_combinations_are_those_of_the_surface_at_hand() {
     assert!((intersection.normal(&[-1.5, 0.2])[0] + 1.0).abs() < 1e-9);
 }
 
+/// With coordinates of a map, in metres, and in a scene of nanometres.
+#[test]
+fn normals_do_not_hang_on_the_size_of_coordinates() {
+    for (origin, size) in [([5e5, 5e6], 1.0), ([0.0, 0.0], 1e-9)] {
+        let at = |x: f64, y: f64| [origin[0] + size * x, origin[1] + size * y];
+        let slab = Cuboid {
+            lower: at(0.0, 0.0),
+            upper: at(4.0, 0.5),
+        };
+        let ramp = Polygon {
+            corners: vec![at(0.0, 0.0), at(4.0, 0.0), at(0.0, 3.0)],
+        };
+        assert_eq!(slab.normal(&at(2.0, 0.45)), [0.0, 1.0], "{origin:?}");
+        assert_eq!(slab.normal(&at(0.1, 0.25)), [-1.0, 0.0], "{origin:?}");
+        let normal = ramp.normal(&at(2.0, 1.4));
+        assert!(
+            (normal[0] - 0.6).hypot(normal[1] - 0.8) < 1e-2,
+            "{origin:?}: {normal:?}"
+        );
+    }
+}
+
 #[test]
 fn distances_follow_the_hand_calculation() {
     let square = Cuboid {
