@@ -14,9 +14,12 @@ impl Polygon {
         self.corners.iter().zip(next).map(|(&a, &b)| (a, b))
     }
 
-    /// ½ Σ (x_k y_{k+1} − x_{k+1} y_k), positive for corners against the clock.
+    /// ½ Σ (x_k y_{k+1} − x_{k+1} y_k), positive for corners against the clock; x and y from the first corner, so that nothing cancels far from the origin.
     pub fn signed_area(&self) -> f64 {
-        0.5 * self.sides().map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
+        let origin = self.corners.first().copied().unwrap_or_default();
+        let from = |x: [f64; 2]| [x[0] - origin[0], x[1] - origin[1]];
+        let sides = self.sides().map(|(a, b)| (from(a), from(b)));
+        0.5 * sides.map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
     }
 }
 

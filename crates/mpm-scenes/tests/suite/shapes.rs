@@ -128,6 +128,14 @@ fn normals_do_not_hang_on_the_size_of_coordinates() {
 }
 
 #[test]
+fn areas_of_polygons_do_not_cancel_far_from_the_origin() {
+    let at = |x: f64, y: f64| [5e5 + x, 5e6 + y];
+    let corners = vec![at(0.1, 0.3), at(0.9, 0.3), at(0.9, 0.7), at(0.1, 0.7)];
+    let area = Shape::<2>::volume(&Polygon { corners }).expect("closed form");
+    assert!((area - 0.32).abs() < 1e-8, "{area}");
+}
+
+#[test]
 fn distances_follow_the_hand_calculation() {
     let square = Cuboid {
         lower: [0.0, 0.0],
