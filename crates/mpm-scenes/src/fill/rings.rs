@@ -30,8 +30,10 @@ pub fn rings<const D: usize>(
     let sides = bounds.sides();
     let centre: [f64; D] = std::array::from_fn(|a| 0.5 * (bounds.lower[a] + bounds.upper[a]));
     counts(body, &sides, step, MOST_POINTS)?;
+    let far = centre.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+    let rounding = |length: f64| 1e-9 * length + 8.0 * f64::EPSILON * far;
     let outer = match sides.get(..2) {
-        Some(&[width, height]) if D == 2 && (width - height).abs() <= 1e-9 * width => 0.5 * width,
+        Some(&[width, height]) if D == 2 && (width - height).abs() <= rounding(width) => 0.5 * width,
         _ => return Err(other("what is no disk or annulus")),
     };
     let inner = shape.distance(&centre).max(0.0);
@@ -41,7 +43,7 @@ pub fn rings<const D: usize>(
     let on_edge = |radius: f64, direction: u32| {
         let (sin, cos) = (PI * f64::from(direction) / 8.0).sin_cos();
         let x = std::array::from_fn(|a| centre[a] + radius * [cos, sin].get(a).unwrap_or(&0.0));
-        shape.distance(&x).abs() <= 1e-9 * outer
+        shape.distance(&x).abs() <= rounding(outer)
     };
     let edges = [outer, inner].into_iter().filter(|&radius| radius > 0.0);
     if !edges

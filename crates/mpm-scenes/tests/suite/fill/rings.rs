@@ -60,3 +60,14 @@ fn only_round_shapes_have_rings() {
     };
     assert!(rings("a", &space, 0.1, &Bounds::EVERYWHERE).is_err());
 }
+
+/// With coordinates of a map, in metres.
+#[test]
+fn a_disk_far_from_the_origin_is_a_disk() {
+    let disk = Ball {
+        centre: [500_000.3, 5_000_000.7],
+        radius: 0.5,
+    };
+    let filling = rings("a", &disk, 0.05, &Bounds::EVERYWHERE).expect("round");
+    assert!((filling.volume() - PI * 0.25).abs() < 1e-8);
+}
