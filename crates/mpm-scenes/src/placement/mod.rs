@@ -79,7 +79,7 @@ pub(crate) fn check_barrier<const D: usize>(
     Ok(())
 }
 
-/// A wall that no node is near is felt by nobody.
+/// A wall that no node is near is felt by nobody, and one whose material leaves it by more than a cell as well: planes stay where they are.
 fn check_walls<const D: usize>(scene: &Scene, background: &Background<D>, nodes: &Nodes<D>) -> Result<(), SceneFault> {
     for (index, table) in scene.walls.iter().enumerate() {
         let (point, normal) = plane::build(background.room(), index, table)?;
@@ -92,6 +92,12 @@ fn check_walls<const D: usize>(scene: &Scene, background: &Background<D>, nodes:
         match table.axis.and_then(|axis| point.get(axis.index())) {
             Some(position) => within(&format!("walls[{index}].position"), *position, reached, &expected).map(drop)?,
             None => within(&format!("walls[{index}].point"), point.to_vec(), reached, &expected).map(drop)?,
+        }
+        if let Some(list) = &table.velocity {
+            let field = format!("walls[{index}].velocity");
+            let way = algebra::dot(&vector::<D>(&field, list)?, &normal).abs() * scene.time.end;
+            let expected = "along the wall, or across it by a cell at most until time.end: the wall stays where it is, [[obstacles]] and [[held]] move";
+            within(&field, list, way <= nodes.spacing(), expected).map(drop)?;
         }
     }
     Ok(())

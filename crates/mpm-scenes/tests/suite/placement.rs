@@ -27,6 +27,19 @@ fn an_obstacle_that_arrives_is_accepted_and_one_that_stays_away_is_not() {
     }
 }
 
+/// A cell is 0.25 wide, and the end is at 0.01.
+#[test]
+fn a_wall_stays_where_it_is_and_is_not_left_behind() {
+    let lid = |velocity: [f64; 2]| {
+        block(&format!(
+            "\n[[walls]]\naxis = \"y\"\nside = \"upper\"\ncondition = \"prescribed\"\nvelocity = {velocity:?}\n"
+        ))
+    };
+    assert_eq!(lid([3.0, 1.0]), None);
+    let message = lid([3.0, 30.0]).expect("it goes three tenths");
+    assert!(message.contains("walls[1].velocity = [3.0, 30.0]"), "{message}");
+}
+
 #[test]
 fn a_held_region_that_arrives_or_turns_is_accepted() {
     let held = |motion: &str| {
