@@ -117,6 +117,29 @@ fn a_cube_turns_freely() {
     }
 }
 
+/// By what affine parts of zero take at the surface: energies of a rigid turn are as squares of its rate.
+#[test]
+fn a_body_that_turns_is_slowed_by_its_first_step() {
+    let share_left = |spacing: &str| {
+        let block = "lower = [-0.6, -0.4, -0.2], upper = [0.6, 0.4, 0.2]";
+        let text = CUBE
+            .replace("lower = [-0.4, -0.4, -0.4], upper = [0.4, 0.4, 0.4]", block)
+            .replace("rate = [0.0, 1.0, 2.0]", "rate = [0.0, 0.1, 0.0]")
+            .replace("spacing = 0.2", &format!("spacing = {spacing}"))
+            .replace("\"cubic\"", "\"quadratic\"")
+            .replace("\"mls\"", "\"apic\"")
+            .replace("stress_update = \"first\"", "")
+            .replace("end = 0.1", "end = 0.001")
+            .replace("interval = 0.05", "interval = 0.001");
+        let directory = tempfile::tempdir().expect("a directory");
+        let energy = column(&run(&scene(&text), directory.path()).1, "kinetic_energy");
+        (energy[1] / energy[0]).sqrt()
+    };
+    let (coarse, fine) = (share_left("0.1"), share_left("0.05"));
+    assert!((coarse - 0.97).abs() < 0.005, "{coarse}");
+    assert!((fine - 0.99).abs() < 0.003, "{fine}");
+}
+
 #[test]
 fn laws_remember_and_frames_say_what() {
     let directory = tempfile::tempdir().expect("a directory");
