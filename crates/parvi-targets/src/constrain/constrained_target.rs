@@ -41,6 +41,10 @@ impl<T: Target<N>, const N: usize, const D: usize> Target<D> for ConstrainedTarg
         self.constraints.pull_back_score_at(y, &x, &self.density.score(&x))
     }
 
+    fn has_log_density(&self) -> bool {
+        self.density.has_log_density()
+    }
+
     fn points_per_call(&self) -> usize {
         self.density.points_per_call()
     }

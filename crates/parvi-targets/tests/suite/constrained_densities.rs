@@ -1,6 +1,6 @@
 //! Known densities of constrained coordinates through their transforms: integrals, exact draws, far tails.
 
-use parvi_targets::{ConstrainedTarget, Constraints, Target, correlation_matrix};
+use parvi_targets::{ConstrainedTarget, Constraints, ScoreOnly, Target, correlation_matrix};
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
@@ -170,6 +170,14 @@ fn densities_of_one_coordinate_have_their_integrals() {
     let share = 1.0 / (1.0 + 2_f64.exp());
     assert_close(integral(&above, [[-40.0, 6.0]], 0.02, |_| 1.0), share, "above 2");
     assert_close(integral(&below, [[-40.0, 6.0]], 0.02, |_| 1.0), 1.0 - share, "below 2");
+}
+
+#[test]
+fn a_score_alone_stays_alone_under_constraints() {
+    let constraints = Constraints::<1, 1>::builder().positive(1).build().unwrap();
+    let score_only = constraints.target(ScoreOnly(|x: &[f64; 1]| [2.0 / x[0] - 2.0]));
+    assert!(!Target::<1>::has_log_density(&score_only));
+    assert!(Target::<1>::has_log_density(&constraints.target(Gammas::<1>(3.0, 2.0))));
 }
 
 #[test]
