@@ -1,7 +1,7 @@
 //! The score as a body force in the coordinates of the frame.
 
 use mpm_core::{BodyForce, ForceLocation, Masses, MpmError, Sites};
-use parvi_targets::{Frame, Target};
+use parvi_targets::{Frame, Target, scores_in_calls};
 
 use crate::choices::{NonFiniteScores, ScoreLocation};
 use crate::node_scores::NodeScores;
@@ -42,7 +42,7 @@ impl<'a, const D: usize> FramedScore<'a, D> {
     pub fn evaluate(&mut self, zs: &[[f64; D]], out: &mut [[f64; D]]) -> Result<(), MpmError> {
         self.points.clear();
         self.points.extend(zs.iter().map(|z| self.frame.to_target(z)));
-        self.target.scores(&self.points, out);
+        scores_in_calls(self.target, &self.points, out);
         self.evaluations += zs.len() as u64;
         for (index, score) in out.iter_mut().enumerate() {
             if !score.iter().all(|c| c.is_finite()) {

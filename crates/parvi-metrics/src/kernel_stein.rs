@@ -1,6 +1,6 @@
 //! The kernel Stein discrepancy: how far a cloud is from a density of which only the score is known.
 
-use parvi_targets::Target;
+use parvi_targets::{Target, scores_in_calls};
 
 use crate::error::{finite, parameter};
 use crate::lanes::{LANES, Lanes};
@@ -147,7 +147,7 @@ pub fn target_stein_discrepancy<const D: usize>(
     kernel: &InverseMultiquadric,
 ) -> Result<SteinDiscrepancy, MetricError> {
     let mut scores = vec![[0.0; D]; cloud.len()];
-    target.scores(cloud.points(), &mut scores);
+    scores_in_calls(target, cloud.points(), &mut scores);
     kernel_stein_discrepancy(cloud, &scores, kernel)
 }
 

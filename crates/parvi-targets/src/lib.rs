@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod banana;
+mod calls;
 #[cfg(feature = "catalogue")]
 mod catalogue;
 mod constrain;
@@ -42,6 +43,7 @@ mod target;
 mod weighted_draws;
 
 pub use banana::Banana;
+pub use calls::{log_densities_in_calls, scores_in_calls};
 #[cfg(feature = "catalogue")]
 pub use catalogue::*;
 pub use constrain::{

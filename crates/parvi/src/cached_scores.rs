@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use mpm_tensor::vector;
-use parvi_targets::{Frame, Target};
+use parvi_targets::{Frame, Target, log_densities_in_calls};
 
 use crate::defaults;
 use crate::extent::Extent;
@@ -222,6 +222,11 @@ impl<const D: usize> Target<D> for CachedScores<'_, D> {
         self.target.has_log_density()
     }
 
+    /// One call has all points, for the nodes about them are learnt in their order.
+    fn points_per_call(&self) -> usize {
+        usize::MAX
+    }
+
     fn scores(&self, xs: &[[f64; D]], out: &mut [[f64; D]]) {
         let state = &mut *self.state();
         let zs: Vec<[f64; D]> = xs.iter().map(|x| self.frame.to_reference(x)).collect();
@@ -232,7 +237,7 @@ impl<const D: usize> Target<D> for CachedScores<'_, D> {
     }
 
     fn log_densities(&self, xs: &[[f64; D]], out: &mut [f64]) {
-        self.target.log_densities(xs, out);
+        log_densities_in_calls(self.target, xs, out);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Samplers that condense a big sample into M points: Stein thinning and support points.
 
 use mpm_tensor::vector;
-use parvi_targets::{CatalogueTarget, Frame};
+use parvi_targets::{CatalogueTarget, Frame, scores_in_calls};
 
 use crate::drive::finite;
 use crate::exact::exact_draws;
@@ -48,7 +48,7 @@ impl SteinThinningOptions {
             }
         };
         let mut scores = vec![[0.0; D]; size];
-        target.scores(&pool.positions, &mut scores);
+        scores_in_calls(target, &pool.positions, &mut scores);
         if let Some(index) = scores.iter().position(|score| !vector::is_finite(score)) {
             return Err(SampleError::ScoreNotFinite {
                 step: 0,

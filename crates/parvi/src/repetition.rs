@@ -1,7 +1,7 @@
 //! Whether log p is a function of the point, at a few points of a pool.
 
 use parvi_pool::Pool;
-use parvi_targets::Target;
+use parvi_targets::{Target, log_densities_in_calls};
 
 use crate::certificate::Doubt;
 use crate::drawn::drawn_indices;
@@ -27,7 +27,7 @@ impl Repetition {
         let indices = drawn_indices(pool, POINTS, 0.5);
         let points: Vec<[f64; D]> = indices.iter().map(|&index| pool.positions[index]).collect();
         let mut again = vec![0.0; points.len()];
-        target.log_densities(&points, &mut again);
+        log_densities_in_calls(target, &points, &mut again);
         let difference = |(&index, again): (&usize, &f64)| {
             let before = pool.log_densities[index];
             let difference = (again - before).abs();

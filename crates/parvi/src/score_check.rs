@@ -2,7 +2,7 @@
 
 use mpm_tensor::vector;
 use parvi_pool::Pool;
-use parvi_targets::{Target, normal_quantile};
+use parvi_targets::{Target, log_densities_in_calls, normal_quantile, scores_in_calls};
 use rand::RngExt;
 use rand::rngs::ChaCha8Rng;
 
@@ -71,7 +71,7 @@ impl ScoreCheck {
 /// What the target says at points.
 pub(crate) fn scores_of<const D: usize>(target: &dyn Target<D>, points: &[[f64; D]]) -> Vec<[f64; D]> {
     let mut scores = vec![[0.0; D]; points.len()];
-    target.scores(points, &mut scores);
+    scores_in_calls(target, points, &mut scores);
     scores
 }
 
@@ -102,7 +102,7 @@ fn differences<const D: usize>(
         let moved = points.iter().zip(directions);
         let moved: Vec<[f64; D]> = moved.map(|(x, v)| vector::add_scaled(x, step, v)).collect();
         let mut values = vec![0.0; moved.len()];
-        target.log_densities(&moved, &mut values);
+        log_densities_in_calls(target, &moved, &mut values);
         values
     });
     above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * step)).collect()

@@ -2,7 +2,7 @@
 
 use mpm_tensor::vector;
 use parvi_pool::Pool;
-use parvi_targets::Target;
+use parvi_targets::{Target, log_densities_in_calls};
 
 /// Part of a particle's mass that lies at lower densities than a particle may have.
 pub(crate) const BEYOND: f64 = 0.01;
@@ -19,7 +19,7 @@ pub(crate) fn bring_back<const D: usize>(
     particles: &mut [[f64; D]],
 ) -> u64 {
     let mut log_densities = vec![f64::NAN; particles.len()];
-    target.log_densities(particles, &mut log_densities);
+    log_densities_in_calls(target, particles, &mut log_densities);
     let level = level(pool, beyond / particles.len() as f64);
     let frame = pool.measure.frame();
     let inside = pool

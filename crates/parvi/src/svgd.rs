@@ -2,6 +2,7 @@
 
 use mpm_tensor::vector;
 use parvi_body::FramedScore;
+use parvi_targets::log_densities_in_calls;
 use rand::seq::index;
 
 use crate::drive::finite;
@@ -76,7 +77,7 @@ impl SvgdOptions {
         let positions = finite(positions.iter().map(to_target).collect(), steps)?;
         let (certificate, density_evaluations) = if target.has_log_density() {
             let mut log_densities = vec![0.0; positions.len()];
-            target.log_densities(&positions, &mut log_densities);
+            log_densities_in_calls(target, &positions, &mut log_densities);
             (Certificate::of_outside(&log_densities), positions.len() as u64)
         } else {
             (None, 0)

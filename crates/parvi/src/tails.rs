@@ -2,7 +2,7 @@
 
 use mpm_tensor::vector;
 use parvi_pool::Pool;
-use parvi_targets::{Frame, Target};
+use parvi_targets::{Frame, Target, log_densities_in_calls};
 
 use crate::drawn::drawn_indices;
 
@@ -46,7 +46,7 @@ impl Tails {
         let [near, far] = [NEAR, FAR].map(|t| {
             let places: Vec<[f64; D]> = rays.iter().map(|ray| vector::add_scaled(&origin, t, ray)).collect();
             let mut logs = vec![0.0; places.len()];
-            target.log_densities(&places, &mut logs);
+            log_densities_in_calls(target, &places, &mut logs);
             logs
         });
         // None of what is no number is above.

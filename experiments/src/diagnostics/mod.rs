@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use parvi_metrics::{
     Cloud, CloudMoments, InverseMultiquadric, MetricError, effective_sample_size, kernel_stein_discrepancy, quantiles,
 };
-use parvi_targets::{CatalogueTarget, Frame};
+use parvi_targets::{CatalogueTarget, Frame, scores_in_calls};
 use serde::Serialize;
 
 use moments::{Moment, of_certificate, of_expectations};
@@ -246,7 +246,7 @@ fn discrepancy<const D: usize>(
     };
     let standard: Vec<[f64; D]> = points.iter().map(|x| frame.to_reference(x)).collect();
     let mut scores = vec![[0.0; D]; points.len()];
-    target.scores(points, &mut scores);
+    scores_in_calls(target, points, &mut scores);
     for score in &mut scores {
         *score = frame.pull_back_score(score);
     }

@@ -1,6 +1,6 @@
 //! E\[f\] of a user's function, with its error.
 
-use parvi_targets::Target;
+use parvi_targets::{Target, scores_in_calls};
 
 use super::Expectation;
 use super::control_variates::ControlVariates;
@@ -43,7 +43,7 @@ fn of_values<const D: usize>(target: &dyn Target<D>, samples: &Samples<D>, value
         return None;
     }
     let mut scores = vec![[0.0; D]; positions.len()];
-    target.scores(positions, &mut scores);
+    scores_in_calls(target, positions, &mut scores);
     let weights = samples.weights.as_deref();
     ControlVariates::explaining(positions, &scores, weights, EXPLAINED, |regression, _| {
         let found = regression.expectation(values);

@@ -4,6 +4,7 @@ mod another_target;
 mod bent_targets;
 mod cached_scores;
 mod calibrated;
+mod calls;
 mod half_lines;
 mod improper;
 #[cfg(feature = "nuts")]
