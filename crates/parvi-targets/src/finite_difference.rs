@@ -1,6 +1,7 @@
 //! A score by central differences, for a log density without a gradient.
 
 use crate::error::positive;
+use crate::target::POINTS_PER_CALL;
 use crate::{Target, TargetError};
 
 /// ε^⅓, the step of least error of a central difference in units of the scale.
@@ -27,6 +28,7 @@ const RELATIVE_STEP: f64 = 6.055_454_452_393_343e-6;
 pub struct FiniteDifferenceScore<F, const D: usize> {
     log_density: F,
     scales: [f64; D],
+    points_per_call: usize,
 }
 
 impl<F: Fn(&[f64; D]) -> f64 + Sync, const D: usize> FiniteDifferenceScore<F, D> {
@@ -39,6 +41,7 @@ impl<F: Fn(&[f64; D]) -> f64 + Sync, const D: usize> FiniteDifferenceScore<F, D>
         Self {
             log_density,
             scales: [1.0; D],
+            points_per_call: POINTS_PER_CALL,
         }
     }
 
@@ -50,7 +53,19 @@ impl<F: Fn(&[f64; D]) -> f64 + Sync, const D: usize> FiniteDifferenceScore<F, D>
         for (axis, &scale) in (1..).zip(&scales) {
             positive(&format!("the scale of x{axis}"), scale)?;
         }
-        Ok(Self { log_density, scales })
+        let points_per_call = POINTS_PER_CALL;
+        Ok(Self {
+            log_density,
+            scales,
+            points_per_call,
+        })
+    }
+
+    /// Points of a call at most ([`Target::points_per_call`]; 256 unless said): 1 for a log density that takes a millisecond or longer.
+    #[must_use]
+    pub fn with_points_per_call(mut self, points: usize) -> Self {
+        self.points_per_call = points;
+        self
     }
 
     /// An estimate of the error of each component of the score at `x`, for 4D + 1 log densities: a third of the difference
@@ -87,6 +102,10 @@ impl<F: Fn(&[f64; D]) -> f64 + Sync, const D: usize> Target<D> for FiniteDiffere
 
     fn score(&self, x: &[f64; D]) -> [f64; D] {
         std::array::from_fn(|axis| self.difference(x, axis, self.step(x, axis)))
+    }
+
+    fn points_per_call(&self) -> usize {
+        self.points_per_call
     }
 
     /// In parallel over the points.

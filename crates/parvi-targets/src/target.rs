@@ -6,6 +6,9 @@ use rand_distr::Open01;
 
 use crate::{Frame, TargetError};
 
+/// [`Target::points_per_call`], where a target does not say.
+pub(crate) const POINTS_PER_CALL: usize = 256;
+
 /// An unnormalised density `p` on ℝᴰ: the two functions a user writes to sample an own target.
 pub trait Target<const D: usize>: Sync {
     /// log p(x), up to an additive constant that does not depend on `x`.
@@ -22,10 +25,10 @@ pub trait Target<const D: usize>: Sync {
 
     /// Points that [`scores`](Self::scores) and [`log_densities`](Self::log_densities) are given in one call, at most; calls run side by side.
     ///
-    /// Override it with 1 where a point takes a millisecond or longer (a simulation): every thread then has its share of few points, and an observer is heard between any two. Where batches are cheaper
+    /// Override it with 1 where a point takes a millisecond or longer (a simulation): every thread then has its share of few points, and the observer of a survey is heard between any two. Where batches are cheaper
     /// than their parts, the default is enough.
     fn points_per_call(&self) -> usize {
-        256
+        POINTS_PER_CALL
     }
 
     /// Whether a score depends on how many calls were made before ([`MinibatchScore`](crate::MinibatchScore)). Points that belong together are then asked for in one call, by one thread,

@@ -93,3 +93,13 @@ fn bad_scales_are_refused() {
     assert!(matches!(with(0.0), TargetError::OutOfRange { .. }));
     assert!(matches!(with(f64::NAN), TargetError::NotFinite { .. }));
 }
+
+#[test]
+fn a_slow_density_is_asked_for_few_points_in_a_call() {
+    let quick = FiniteDifferenceScore::new(|x: &[f64; 1]| -0.5 * x[0] * x[0]);
+    assert_eq!(quick.points_per_call(), Gaussian::<1>::standard().points_per_call());
+    let slow = quick.with_points_per_call(1);
+    assert_eq!(slow.points_per_call(), 1);
+    let constraints = Constraints::<1, 1>::builder().positive(1).build().unwrap();
+    assert_eq!(constraints.target(slow).points_per_call(), 1);
+}
