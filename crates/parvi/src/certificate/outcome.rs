@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// Error of a score over the size of differences of log p from which on these are called zero beside it.
+const FLAT: f64 = 1e4;
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
@@ -44,9 +47,9 @@ pub enum Doubt {
         share: f64,
     },
     /// The score is not the gradient of the log density, by differences of this; only searches have followed it.
-    #[error("the score is not the gradient of log p: differences of log p say that it is {:.0} % off", 100.0 * .error)]
+    #[error("the score is not the gradient of log p: differences of log p {}", beside_a_score(*.error))]
     Score {
-        /// By how much, over its size.
+        /// By how much, over the size of the differences; huge where log p is flat about nearly all points, as one that is rounded.
         error: f64,
     },
     /// The score is not finite where log p is; only searches have followed it.
@@ -170,6 +173,14 @@ pub enum Doubt {
     },
 }
 
+/// What differences of log p are beside a score with this error, over their size.
+fn beside_a_score(error: f64) -> String {
+    match error < FLAT {
+        true => format!("say that it is {:.0} % off", 100.0 * error),
+        false => "are as good as zero where it is not".to_owned(),
+    }
+}
+
 /// An error of a mean in words.
 fn in_deviations(error: f64) -> String {
     match error.is_finite() {
@@ -275,6 +286,19 @@ mod tests {
             assert!(
                 text.contains("of intercept may be off by an amount") && !text.contains("inf "),
                 "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_score_beside_a_flat_log_density_has_no_infinite_error() {
+        let reason = |error: f64| Doubt::Score { error }.to_string();
+        assert!(reason(2.0).ends_with("say that it is 200 % off"), "{}", reason(2.0));
+        for error in [1e5, 1.0 / f64::MIN_POSITIVE, f64::INFINITY] {
+            assert!(
+                reason(error).ends_with("are as good as zero where it is not"),
+                "{}",
+                reason(error)
             );
         }
     }
