@@ -248,6 +248,7 @@ fn files_of_particles_that_make_no_sense_are_named() {
         s.csv | 0,0,0\n1,1,1\n | --start s.csv | --start | s.csv | 3 columns | 2
         s.csv | 0,0\nnan,1\n | --start s.csv | --start | row 2, column 1 | NaN
         s.csv | x,y\n0,0\none,1\n | --start s.csv | --start | line 3 | one
+        s.csv | x2,x1\n0,0\n1,1\n | --start s.csv | --start | s.csv | columns are x2, x1 | must be x1, x2
         s.txt | 0,0\n1,1\n | --start s.txt | --start | s.txt | .csv or .npy
         s.csv | 0,0\n | --start s.csv | particles | 1
         s.csv | 0,0\n1,1\n | --start none.csv | --start | none.csv

@@ -12,14 +12,15 @@ use crate::dispatch::{in_dimension, on_target};
 use crate::options::{Dimension, OptionError, TargetSpecification};
 use crate::output::NumberTable;
 
-/// Reads the files, and draws from the start's law where it has a name or a covariance; `dimension` is that of the target.
+/// Reads the files, and draws from the start's law where it has a name or a covariance; `names` are those of the target's coordinates, one for each dimension.
 ///
 /// # Errors
 /// A file that does not fit the target or the number of particles, or a law that cannot be drawn from.
-pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<GivenParticles, CommandError> {
+pub fn given(arguments: &Arguments, names: &[String], run: &Run) -> Result<GivenParticles, CommandError> {
+    let dimension = names.len();
     let (options, particles) = (&arguments.options, run.particles);
     let read = |flag: &'static str, path: Option<&Path>, columns: usize| {
-        path.map(|path| read(flag, path, particles, columns)).transpose()
+        path.map(|path| read(flag, path, particles, columns, names)).transpose()
     };
     let mut given = GivenParticles {
         positions: read("start", options.start_file(), dimension)?,
@@ -49,8 +50,8 @@ pub fn given(arguments: &Arguments, dimension: usize, run: &Run) -> Result<Given
     Ok(given)
 }
 
-/// The numbers of a file: so many rows and columns, all finite.
-fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>, OptionError> {
+/// The numbers of a file: so many rows and columns, all finite. Columns count by their place, so that a header of the coordinates' `names` in another order is refused.
+fn read(flag: &str, path: &Path, rows: usize, columns: usize, names: &[String]) -> Result<Vec<f64>, OptionError> {
     let table = NumberTable::read(flag, path)?;
     let refused = |reason: String| OptionError::new(flag, format!("{}{reason}", path.display()));
     for (found, wanted, what) in [(table.columns, columns, "columns"), (table.rows(), rows, "rows")] {
@@ -58,11 +59,21 @@ fn read(flag: &str, path: &Path, rows: usize, columns: usize) -> Result<Vec<f64>
             return Err(refused(format!(" has {found} {what}, must have {wanted}")));
         }
     }
+    if table.header != names && sorted(&table.header) == sorted(names) {
+        let [found, wanted] = [&table.header, names].map(|names| names.join(", "));
+        return Err(refused(format!(": the columns are {found}, must be {wanted}")));
+    }
     let Some(index) = table.numbers.iter().position(|number| !number.is_finite()) else {
         return Ok(table.numbers);
     };
     let (row, column, number) = (index / columns + 1, index % columns + 1, table.numbers[index]);
     Err(refused(format!(": row {row}, column {column} is not finite: {number}")))
+}
+
+fn sorted(names: &[String]) -> Vec<&String> {
+    let mut sorted: Vec<&String> = names.iter().collect();
+    sorted.sort_unstable();
+    sorted
 }
 
 fn of_law(reason: String) -> CommandError {

@@ -106,9 +106,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let dimension = target.dimension().map_err(|error| of_flags(error.into()))?;
     let mut run = Run::new(particles(arguments)?, arguments.seed);
     run.start = arguments.options.start();
-    run.given = given::given(arguments, dimension, &run)?;
     let data = arguments.parameters.data.as_ref();
     let names = data.map_or(Vec::new(), |_| target.coordinate_names());
+    run.given = given::given(arguments, &column_names(&names, dimension), &run)?;
     // Whoever sees a file sees a run that can be interrupted.
     interrupt::listen();
     let directory = |flag, path: &Option<PathBuf>| {
