@@ -132,7 +132,7 @@ fn flags_that_do_not_fit_the_baselines() {
         support-points --pool exact | --pool | exact | support-points
         support-points --tolerance -1 | --tolerance | -1 | at least 0
         support-points --start-mean 1 | --start-mean | 1 | support-points
-        stein-thinning --pool-size 63 | pool size | 63 | particles
+        stein-thinning --pool-size 63 | --pool-size | 63 | particles
         stein-thinning --warm-up 50 | --warm-up | 50 | pool `nuts`
         stein-thinning --pool exact --start-sd 2 | --start-sd | 2 | pool `nuts`
         "#,

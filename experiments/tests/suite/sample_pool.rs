@@ -77,7 +77,7 @@ fn options_of_a_survey() {
         --evaluations 500 --method svgd | --evaluations | 500 | svgd
         --rounds 0 --survey off | --rounds | 0 | needs a survey
         --method smc --pool p.csv | --pool | p.csv | smc
-        --method smc --pool-size 20 | pool size | 20 | particles
+        --method smc --pool-size 20 | --pool-size | 20 | particles
         --method ais --steps 5 | --steps | 5 | ais
         --method ais --survey on | --survey | on | ais
         --method ais --checkpoint state | --checkpoint | state | ais

@@ -135,19 +135,21 @@ fn drawn<const D: usize>(law: &dyn CatalogueTarget<D>, run: &Run, volumes: bool)
     Ok((positions.as_flattened().to_vec(), densities))
 }
 
-/// The flag behind what a sampler refuses of given particles.
+/// The flag behind what a sampler refuses of given particles, or of the size of a pool.
 pub fn flag_of(error: &SampleError) -> Option<OptionError> {
     let field = match error {
         SampleError::GivenValue { field, .. }
         | SampleError::GivenLength { field, .. }
         | SampleError::NotTaken { field, .. } => *field,
         SampleError::StartWithoutSpread => "start positions",
+        SampleError::InvalidOption { field: "pool size", .. } => "pool size",
         _ => return None,
     };
     let name = match field {
         "start positions" => "start",
         "velocities" => "velocities",
         "masses" => "masses",
+        "pool size" => "pool-size",
         _ => "volumes",
     };
     Some(OptionError::new(name, error.to_string()))
