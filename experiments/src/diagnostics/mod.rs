@@ -111,7 +111,7 @@ struct Quantile {
     standard_error: f64,
 }
 
-/// A quantile of a sample with its error.
+/// A quantile of a sample with its error: that of its level by the weights of the points on either side.
 #[derive(Clone, Copy)]
 struct Known {
     value: f64,
@@ -141,7 +141,6 @@ fn of_target<const D: usize>(
     let points = particles.points::<D>().unwrap_or_default();
     let weights = particles.weights();
     let cloud = Cloud::with_optional_weights(&points, weights)?;
-    let size = effective_size(particles)?;
     let certificate = outcome.certificate.as_ref();
     let moments = match certificate {
         Some(certificate) if certificate.moments.len() == D => of_certificate(certificate),
@@ -150,19 +149,14 @@ fn of_target<const D: usize>(
     let pooled = outcome.pool.as_ref();
     let everything = pooled.map(|pool| pool.points::<D>().unwrap_or_default());
     let weighed = everything.as_deref().zip(pooled);
-    let weighed = weighed.map(|(points, pool)| {
-        Ok((
-            Cloud::with_optional_weights(points, pool.weights())?,
-            effective_size(pool)?,
-        ))
-    });
+    let weighed = weighed.map(|(points, pool)| Cloud::with_optional_weights(points, pool.weights()));
     let weighed = weighed.transpose().map_err(CommandError::Metric)?;
-    let tails = tails(&cloud, size, weighed.as_ref())?;
-    let covariance = CloudMoments::new(weighed.as_ref().map_or(&cloud, |(pool, _)| pool)).ok();
+    let tails = tails(&cloud, weighed.as_ref())?;
+    let covariance = CloudMoments::new(weighed.as_ref().unwrap_or(&cloud)).ok();
     let coordinates = moments.into_iter().zip(tails).zip(names);
     Ok(Diagnostics {
         particles: points.len(),
-        effective_sample_size: size,
+        effective_sample_size: effective_size(particles)?,
         outcome: certificate.map(|certificate| certificate.outcome.name()),
         reason: certificate.and_then(|certificate| certificate.outcome.reason_naming(names)),
         score_evaluations: outcome.score_evaluations,
@@ -193,14 +187,13 @@ fn of_target<const D: usize>(
     })
 }
 
-/// The quantiles of every coordinate: of the particles, beside those of the pool with its effective size.
+/// The quantiles of every coordinate: of the particles, beside those of the pool.
 fn tails<const D: usize>(
     cloud: &Cloud<'_, D>,
-    size: f64,
-    pool: Option<&(Cloud<'_, D>, f64)>,
+    pool: Option<&Cloud<'_, D>>,
 ) -> Result<Vec<Vec<Quantile>>, CommandError> {
-    let own = known(cloud, size)?;
-    let pool = pool.map(|(pool, size)| known(pool, *size)).transpose()?;
+    let own = known(cloud)?;
+    let pool = pool.map(known).transpose()?;
     let of_axis = |axis: usize| {
         let of_level = |k: usize| {
             let own = own[k][axis];
@@ -217,19 +210,38 @@ fn tails<const D: usize>(
     Ok((0..D).map(of_axis).collect())
 }
 
-/// The quantiles of a sample by level and coordinate, whose effective size is given.
-fn known<const D: usize>(cloud: &Cloud<'_, D>, size: f64) -> Result<Vec<[Known; D]>, MetricError> {
-    let error = |level: f64| (level * (1.0 - level) / size).sqrt();
-    let lower = quantiles(cloud, &LEVELS.map(|level| (level - error(level)).max(0.0)))?;
+/// The quantiles of a sample by level and coordinate.
+fn known<const D: usize>(cloud: &Cloud<'_, D>) -> Result<Vec<[Known; D]>, MetricError> {
     let middle = quantiles(cloud, &LEVELS)?;
-    let upper = quantiles(cloud, &LEVELS.map(|level| (level + error(level)).min(1.0)))?;
+    let places = || (0..LEVELS.len()).flat_map(|k| (0..D).map(move |axis| (k, axis)));
+    let errors: Vec<f64> = places()
+        .map(|(k, axis)| error_of_level(cloud, axis, LEVELS[k], middle[k][axis]))
+        .collect();
+    let moved = |sign: f64| {
+        let levels = places().zip(&errors);
+        let levels: Vec<f64> = levels
+            .map(|((k, _), error)| (LEVELS[k] + sign * error).clamp(0.0, 1.0))
+            .collect();
+        quantiles(cloud, &levels)
+    };
+    let (lower, upper) = (moved(-1.0)?, moved(1.0)?);
     let of_level = |k: usize| {
         std::array::from_fn(|axis| Known {
             value: middle[k][axis],
-            error: 0.5 * (upper[k][axis] - lower[k][axis]),
+            error: 0.5 * (upper[k * D + axis][axis] - lower[k * D + axis][axis]),
         })
     };
     Ok((0..LEVELS.len()).map(of_level).collect())
+}
+
+/// The standard error of the share p of points up to the quantile `value` of a coordinate: (p (1 − p) / M)^½, and (Σ w² (1{x ≤ q} − p)²)^½ of weights that sum to one, which are often larger in the
+/// tails than elsewhere.
+fn error_of_level<const D: usize>(cloud: &Cloud<'_, D>, axis: usize, level: f64, value: f64) -> f64 {
+    if cloud.weights().is_none() {
+        return (level * (1.0 - level) / cloud.len() as f64).sqrt();
+    }
+    let term = |(x, weight): (&[f64; D], f64)| (weight * (f64::from(u8::from(x[axis] <= value)) - level)).powi(2);
+    cloud.iter().map(term).sum::<f64>().sqrt()
 }
 
 /// The kernel Stein discrepancy; `None` for many particles, for such as lie in a plane, and where a score is not finite, as differences across an edge are.
@@ -256,4 +268,27 @@ fn discrepancy<const D: usize>(
     let cloud = Cloud::with_optional_weights(&standard, weights)?;
     let found = kernel_stein_discrepancy(&cloud, &scores, &InverseMultiquadric::default())?;
     Ok(Some(found.discrepancy()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heavy_points_in_a_tail_make_its_quantiles_uncertain() {
+        let points: Vec<[f64; 1]> = (0..100).map(|i| [f64::from(i)]).collect();
+        let error = |weights: &[f64]| error_of_level(&Cloud::weighted(&points, weights).unwrap(), 0, 0.1, 9.0);
+        let equal = error_of_level(&Cloud::new(&points).unwrap(), 0, 0.1, 9.0);
+        assert!((equal - 0.03).abs() < 1e-15 && (error(&[1.0; 100]) - equal).abs() < 1e-15);
+        // Five of the ten points below have their share of a tenth.
+        let heavy: Vec<f64> = (0..100)
+            .map(|i| match i {
+                0..5 => 2.0,
+                5..10 => 0.0,
+                _ => 1.0,
+            })
+            .collect();
+        // (5 (0.02 · 0.9)² + 90 (0.01 · 0.1)²)^½
+        assert!((error(&heavy) - 0.001_71_f64.sqrt()).abs() < 1e-15);
+    }
 }
