@@ -10,7 +10,7 @@ use crate::learn::{Spending, learn};
 use crate::mixture::Mixture;
 use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
-use crate::scout::{Scouted, scout};
+use crate::scout::{Scouted, scout, wide};
 use crate::search::{LIGHTEST, search};
 
 /// Effective share above which another round could gain nothing.
@@ -83,16 +83,24 @@ impl<const D: usize> Adaptation<D> {
                 fold.draw(density, proposal.clone(), count / 4, rng.random());
             }
         }
-        let finite = |fold: &Fold<D>| fold.log_densities.iter().any(|l| l.is_finite());
-        if !folds.iter().all(finite) {
+        let has_mass = |fold: &Fold<D>| fold.log_densities.iter().any(|l| l.is_finite());
+        if !folds.iter().all(has_mass) {
+            // Scouts may agree on a place that has none.
+            let law = Mixture::new(wide()).ok_or_else(|| density.nowhere_finite())?;
+            for fold in &mut folds {
+                fold.draw(density, law.clone(), plan.first / 2, rng.random());
+            }
+        }
+        if !folds.iter().all(has_mass) {
             return Err(density.nowhere_finite());
         }
         let size = folds.iter().map(Fold::effective_size).sum();
+        let shares = folds.each_ref().map(|fold| vec![0.0; fold.rounds.len()]);
         Ok(Self {
             folds,
             form: None,
             share: 0.0,
-            shares: [vec![0.0; 1 + given.len()], vec![0.0; 1 + given.len()]],
+            shares,
             best: 0.0,
             without_advance: 0,
             searched: 0,

@@ -17,6 +17,29 @@ impl<F: Fn(&[f64; 2]) -> f64 + Sync> Target<2> for Given<F> {
     }
 }
 
+/// 1/x on 0 < y < x < 1, of mass 1, seen from N(0, I): scouts climb to the corner, where there is next to none of it.
+#[test]
+fn scouts_that_agree_on_a_place_without_mass_are_not_the_last_word() {
+    struct Corner;
+    impl Target<2> for Corner {
+        fn log_density(&self, &[x, y]: &[f64; 2]) -> f64 {
+            if 0.0 < y && y < x && x < 1.0 {
+                -x.ln()
+            } else {
+                f64::NEG_INFINITY
+            }
+        }
+        fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+            [-1.0 / x[0], 0.0]
+        }
+    }
+    for seed in [23, 50, 70, 98, 102, 104, 156, 158] {
+        let pool = pool_of(&Corner, 500, seed).unwrap();
+        let off = pool.log_evidence.abs();
+        assert!(off < 4.0 * pool.log_evidence_error, "seed {seed}: {off}");
+    }
+}
+
 #[test]
 fn densities_that_are_no_numbers_are_survived() {
     let hostile = Given(|x: &[f64; 2]| {
