@@ -33,10 +33,12 @@ const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
 /// What is drawn at a time in search of what the rounds have not met: a share of what these took, but no more than a share of all evaluations, unless a share of the
-/// effective size that is wanted is more, and at most twice that share of all; times the effort that is asked for. How many times that all searches may take.
+/// effective size that is wanted or a number that is not too few for any is more, and at most twice that share of all; times the effort that is asked for. How many times that all searches
+/// may take.
 const SEARCHING_OF_SPENT: f64 = 1.0 / 3.0;
 const SEARCHING: f64 = 0.1;
 const SEARCHING_OF_GOAL: f64 = 0.3;
+const FEWEST_DRAWS: f64 = 1800.0;
 const SEARCHES: u64 = 5;
 
 /// Evaluations of searches that meet nothing new, over those until the last piece was met, without which there may be more.
@@ -126,6 +128,7 @@ impl<const D: usize> Adaptation<D> {
         let count = (SEARCHING_OF_SPENT * spent as f64)
             .min(most)
             .max(SEARCHING_OF_GOAL * plan.goal)
+            .max(FEWEST_DRAWS)
             .min(2.0 * most);
         let left = ADAPTING * plan.evaluations as f64 - density.evaluations() as f64;
         let count = (plan.search_effort * count).min(left).max(count);
