@@ -255,7 +255,7 @@ fn no_more_is_evaluated_than_allowed() {
     assert!(survey.density_evaluations + survey.score_evaluations <= 4000);
 }
 
-/// Energy distances that are stated, beside those from the exact law.
+/// Energy distances that are stated, beside those from the exact law: of nine seeds.
 #[test]
 fn particles_know_how_far_they_are_from_the_target() {
     fn check<const D: usize>(particles: usize) {
@@ -265,16 +265,21 @@ fn particles_know_how_far_they_are_from_the_target() {
             .moments()
             .and_then(|moments| Frame::new(moments.mean, moments.covariance).ok());
         let frame = frame.expect("moments");
-        for seed in 0..2 {
+        let ratio = |seed| {
             let samples = MpmOptions::default()
                 .sample(&target, &Frame::identity(), &Run::new(particles, seed), &mut Silent)
                 .expect("particles");
             let points: Vec<[f64; D]> = samples.positions.iter().map(|x| frame.to_reference(x)).collect();
             let distance = energy.squared(&Cloud::new(&points).expect("points")).expect("finite");
             let exact = distance * particles as f64 / energy.mean_distance();
-            let stated = samples.relative_energy_distance.expect("a pool");
-            assert!((0.8..1.25).contains(&(stated / exact)), "{D}: {stated} {exact}");
-        }
+            samples.relative_energy_distance.expect("a pool") / exact
+        };
+        let mut ratios: Vec<f64> = (0..9).map(ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        // What is stated holds noise of its own: in one of a hundred runs it is half as much again.
+        assert!((0.95..1.1).contains(&ratios[4]), "{D}: {ratios:?}");
+        assert!(ratios[1] > 0.9 && ratios[7] < 1.2, "{D}: {ratios:?}");
+        assert!(ratios[0] > 0.5 && ratios[8] < 2.0, "{D}: {ratios:?}");
     }
     check::<2>(500);
     check::<4>(1000);
