@@ -204,8 +204,21 @@ fn averaged_changes_are_for_solids() {
         let energies = squares.zip(&frame.masses).map(|(square, mass)| 0.5 * mass * square);
         energies.sum::<f64>()
     };
-    let apic = WATER.replace("kind = \"flip\"\nflip_share = 1.0", "kind = \"apic\"");
-    assert!(kinetic_energy(WATER, "\"changes\"") > 10.0);
-    assert!(kinetic_energy(&apic, "\"changes\"") < 0.2);
-    assert!(kinetic_energy(WATER, "false") < 0.2);
+    let flip = "kind = \"flip\"\nflip_share = 1.0";
+    for (transfer, joules) in [
+        (flip, 168.0),
+        ("kind = \"flip\"\npic_rate = 5.0", 44.0),
+        ("kind = \"flip\"\nflip_share = 0.99", 12.6),
+    ] {
+        let energy = kinetic_energy(&WATER.replace(flip, transfer), "\"changes\"");
+        assert!((energy / joules - 1.0).abs() < 0.1, "{transfer}: {energy}");
+    }
+    for (transfer, averaging) in [
+        ("kind = \"apic\"", "\"changes\""),
+        ("kind = \"mls\"", "\"changes\""),
+        (flip, "false"),
+    ] {
+        let energy = kinetic_energy(&WATER.replace(flip, transfer), averaging);
+        assert!(energy < 0.2, "{transfer}: {energy}");
+    }
 }
