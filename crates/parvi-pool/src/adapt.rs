@@ -33,8 +33,7 @@ const SHARPENING: f64 = 0.02;
 const ADAPTING: f64 = 0.75;
 
 /// What is drawn at a time in search of what the rounds have not met: a share of what these took, but no more than a share of all evaluations, unless a share of the
-/// effective size that is wanted or a number that is not too few for any is more, and at most twice that share of all; times the effort that is asked for. How many times that all searches
-/// may take.
+/// effective size that is wanted is more, or the fewest draws are, and at most twice that share of all; times the effort that is asked for. How many times that all searches may take.
 const SEARCHING_OF_SPENT: f64 = 1.0 / 3.0;
 const SEARCHING: f64 = 0.1;
 const SEARCHING_OF_GOAL: f64 = 0.3;

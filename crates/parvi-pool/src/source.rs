@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use parvi_targets::Target;
+use parvi_targets::{Target, log_densities_in_calls, scores_in_calls};
 
 use crate::options::{PoolError, Round};
 use crate::report::{Observer, Report};
@@ -162,7 +162,7 @@ impl<'a, const D: usize> Source<'a, D> {
         while known < xs.len() && !self.stopped {
             let next = xs.len().min(known.saturating_add(self.stretch(batch)));
             let stretch = &mut values[width * known..width * next];
-            self.evaluate(kind, &xs[known..next], stretch, batch);
+            self.evaluate(kind, &xs[known..next], stretch);
             if are_new {
                 self.tape.extend_from_slice(stretch);
                 self.evaluations += (next - known) as u64;
@@ -183,13 +183,12 @@ impl<'a, const D: usize> Source<'a, D> {
     }
 
     /// Evaluates a stretch of points, batches side by side.
-    fn evaluate(&mut self, kind: Kind, xs: &[[f64; D]], values: &mut [f64], batch: usize) {
-        let (target, width, begin) = (self.target, values.len() / xs.len(), Instant::now());
-        let tasks = values.chunks_mut(width * batch).zip(xs.chunks(batch));
-        mpm_parallel::each(tasks, &|(values, xs): (&mut [f64], &[[f64; D]])| match kind {
-            Kind::Density => target.log_densities(xs, values),
-            Kind::Score => target.scores(xs, values.as_chunks_mut().0),
-        });
+    fn evaluate(&mut self, kind: Kind, xs: &[[f64; D]], values: &mut [f64]) {
+        let begin = Instant::now();
+        match kind {
+            Kind::Density => log_densities_in_calls(self.target, xs, values),
+            Kind::Score => scores_in_calls(self.target, xs, values.as_chunks_mut().0),
+        }
         self.point = begin.elapsed() / u32::try_from(xs.len()).unwrap_or(u32::MAX);
     }
 
