@@ -99,6 +99,13 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             FacetCondition::Slip => surface(true, &|_| [0.0; D]),
             FacetCondition::Prescribed => {
                 let velocity = velocity::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
+                let across = |(&vertex, normal): (&u32, &[f64; D])| {
+                    algebra::dot(&velocity.at(&inner.vertices()[vertex as usize]), normal).abs()
+                };
+                let way = normals.iter().map(across).fold(0.0, f64::max) * scene.time.end;
+                let expected = "along the facets, or across them by an edge at most until time.end: they stay where they are, [[obstacles]] and [[held]] move";
+                let stays = way <= inner.edge_lengths().longest;
+                within(&field("velocity"), &table.velocity, stays, expected)?;
                 surface(false, &|x| velocity.at(x));
             }
             FacetCondition::Friction => {

@@ -2,10 +2,11 @@
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// `velocity` of a body: a vector, or a field as in `{ kind = "rotation", centre = [0.0, 0.0], rate = [1.5] }`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum VelocityTable {
     /// The same for all particles.
     Uniform(Vec<f64>),
@@ -14,7 +15,7 @@ pub enum VelocityTable {
 }
 
 /// A velocity as a function of the position X.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum VelocityField {
     /// v = a sin(k · X + φ).

@@ -290,3 +290,21 @@ fn a_generated_mesh_has_its_boundary() {
         assert!((a - b).abs() < 1e-9, "{a}, {b}");
     }
 }
+
+/// Facets stay where they are: what they prescribe leads along them, or hardly across.
+#[test]
+fn facets_that_would_travel_are_refused() {
+    let velocity =
+        "velocity = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, 1.5], [0.0, 0.0]] }\n\n[output]";
+    for travels in [
+        "[3.0, 0.0]",
+        "{ kind = \"rotation\", centre = [0.0, 4.0], rate = [1.5] }",
+    ] {
+        let directory = tempfile::tempdir().expect("a directory");
+        let changed = format!("velocity = {travels}\n\n[output]");
+        let scene = scene(directory.path(), &[(velocity, &changed)]).expect("a scene");
+        let message = frames(&scene, &mut |_| {}).expect_err(travels).to_string();
+        let expected = format!("facets[0].velocity = {travels}: must be along the facets, or across");
+        assert!(message.contains(&expected), "{message}");
+    }
+}
