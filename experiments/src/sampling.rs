@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use parvi::{Certificate, Method, Observer, Run, Samples, TracePoint};
+use parvi::{Certificate, Method, Observer, Pool, Run, Samples, TracePoint};
 use parvi_targets::{CatalogueTarget, Frame};
 
 use crate::CommandError;
@@ -20,6 +20,8 @@ macro_rules! outcome {
             pub particles: Particles,
             /// Everything that was evaluated, weighed, with log p; where the method keeps it.
             pub pool: Option<Particles>,
+            /// The survey after each of its rounds and at its end, where there was one.
+            pub survey: Vec<SurveyPoint>,
             /// What a watch saw on the way.
             pub watched: Option<Watched>,
             /// log Z less the target's own, where both are known.
@@ -33,6 +35,7 @@ macro_rules! outcome {
             fn from(samples: Samples<D>) -> Self {
                 Self {
                     particles: Particles::from(&samples),
+                    survey: samples.pool.as_deref().map_or_else(Vec::new, SurveyPoint::all),
                     pool: samples.pool.map(|pool| {
                         let points = Particles::new(&pool.positions, Some(&pool.weights));
                         points.with_log_densities(pool.log_densities)
@@ -66,6 +69,34 @@ outcome! {
     relative_energy_distance: Option<f64>,
     certificate: Option<Certificate>,
     trace: Vec<TracePoint>,
+}
+
+/// How far a survey has come.
+#[derive(Clone, Copy, Debug)]
+pub struct SurveyPoint {
+    /// Evaluations of all kinds.
+    pub evaluations: u64,
+    /// (Σ w)² / Σ w² of what is kept of them.
+    pub effective_size: f64,
+    /// The same of the last points alone, over their number.
+    pub share: f64,
+}
+
+impl SurveyPoint {
+    /// After each round, and with the fresh points at the end.
+    fn all<const D: usize>(pool: &Pool<D>) -> Vec<Self> {
+        let rounds = pool.rounds.iter().map(|round| Self {
+            evaluations: round.evaluations,
+            effective_size: round.effective_size,
+            share: round.share,
+        });
+        let end = Self {
+            evaluations: pool.density_evaluations + pool.score_evaluations,
+            effective_size: pool.effective_size(),
+            share: pool.verdict.effective_share,
+        };
+        rounds.chain([end]).collect()
+    }
 }
 
 /// The best configuration of a run, and all looks; as [`parvi::Watched`].

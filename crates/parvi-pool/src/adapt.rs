@@ -49,6 +49,8 @@ const NEARLY: f64 = 0.4;
 /// The two folds while they adapt.
 pub(super) struct Adaptation<const D: usize> {
     pub folds: [Fold<D>; 2],
+    /// The rounds so far.
+    pub rounds: Vec<Round>,
     /// Form of the last proposal.
     pub form: Option<Form>,
     /// Effective share of the last round.
@@ -99,6 +101,7 @@ impl<const D: usize> Adaptation<D> {
         let shares = folds.each_ref().map(|fold| vec![0.0; fold.rounds.len()]);
         Ok(Self {
             folds,
+            rounds: Vec::new(),
             form: None,
             share: 0.0,
             shares,
@@ -216,11 +219,11 @@ impl<const D: usize> Adaptation<D> {
     /// A proposal for each fold from the other's points, and points of it.
     pub fn round(
         &mut self,
-        number: usize,
         density: &mut Density<'_, D>,
         plan: &Plan,
         rng: &mut ChaCha8Rng,
     ) -> Result<Round, PoolError> {
+        let number = self.rounds.len() + 1;
         let sharpening = if number > UNSHARPENED {
             plan.sharpening(self.share, self.sizes[1], SHARPENING)
         } else {
@@ -246,7 +249,7 @@ impl<const D: usize> Adaptation<D> {
         self.best = self.best.max(share);
         self.sizes = [self.sizes[1], self.folds.iter().map(Fold::effective_size).sum()];
         let form = self.form.unwrap_or(Form { kernels: 0, width: 1.0 });
-        Ok(Round {
+        let round = Round {
             number,
             evaluations: density.evaluations(),
             effective_size: self.sizes[1],
@@ -254,7 +257,9 @@ impl<const D: usize> Adaptation<D> {
             kernels: form.kernels,
             width: form.width,
             sharpened: sharpening > 0,
-        })
+        };
+        self.rounds.push(round);
+        Ok(round)
     }
 
     /// A proposal fitted to the points of this fold.

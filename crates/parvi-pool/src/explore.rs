@@ -52,13 +52,11 @@ fn explored<const D: usize>(
     let begun = Adaptation::begin(density, given, &plan, &mut rng);
     density.source.go_on()?;
     let mut adaptation = begun?;
-    let mut number = 0;
     let mut is_due = false;
     loop {
         while is_due || !adaptation.is_over(&plan, density.evaluations()) {
             is_due = false;
-            number += 1;
-            let round = adaptation.round(number, density, &plan, &mut rng);
+            let round = adaptation.round(density, &plan, &mut rng);
             density.source.go_on()?;
             density.source.tell(Some(&round?));
             density.source.go_on()?;

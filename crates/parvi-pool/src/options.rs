@@ -136,7 +136,7 @@ pub struct Round {
     pub number: usize,
     /// Evaluations so far, of all kinds.
     pub evaluations: u64,
-    /// Effective size before the round.
+    /// Effective size after the round.
     pub effective_size: f64,
     /// Effective size of the round's points alone over their number.
     pub share: f64,

@@ -11,6 +11,7 @@ use crate::estimate::Estimate;
 use crate::fold::{Fold, joined};
 use crate::freeze::Frozen;
 use crate::measure::Measure;
+use crate::options::Round;
 use crate::referee::{Objection, Verdict};
 use crate::sample::moments;
 use crate::weights::effective_size;
@@ -41,6 +42,8 @@ pub struct Pool<const D: usize> {
     pub log_evidence_error: f64,
     /// What fresh points of the frozen proposal say.
     pub verdict: Verdict,
+    /// The rounds that shaped the proposals, in their order.
+    pub rounds: Vec<Round>,
     /// [`Measure::inconsistency`]; zero where it is not known.
     pub inconsistency: f64,
     /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.
@@ -100,6 +103,7 @@ impl<const D: usize> Pool<D> {
             log_evidence,
             log_evidence_error,
             verdict,
+            rounds: adaptation.rounds.clone(),
             inconsistency: inconsistency.unwrap_or(0.0),
             quiet: adaptation.quiet(),
             drawn_in_vain: adaptation.drawn_in_vain(),

@@ -1,4 +1,4 @@
-//! What is known of a target beside its particles: exact marginals and joint densities.
+//! What is known of a target beside its particles: exact marginals and joint densities, or those of a weighted pool.
 
 use std::path::Path;
 
@@ -7,6 +7,7 @@ use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
 use super::within::Within;
+use crate::output::Particles;
 use crate::plots::{Curve, PairDensity, PointCloud, Reference};
 use crate::statistics::DensityGrid;
 
@@ -20,6 +21,8 @@ const PROPOSALS: usize = 400_000;
 const NODES: [usize; 2] = [201, 801];
 /// How far the integrals over all and over every second node may differ.
 const TOLERANCE: f64 = 1e-3;
+/// Share of the weight that the lightest points of a pool may take with them: they are many, and not to be seen.
+const LEFT_OUT: f64 = 1e-5;
 /// The domain of a quadrature over the box that holds nearly all of the mass.
 const WIDER: f64 = 1.5;
 
@@ -34,6 +37,8 @@ pub enum Known {
         /// The joint density in the plane.
         pairs: Vec<PairDensity>,
     },
+    /// What the run itself has evaluated, weighed: points and weights.
+    Pool(Vec<Vec<f64>>, Vec<f64>),
     /// Nothing, and why.
     Nothing(String),
 }
@@ -43,6 +48,7 @@ impl Known {
     pub fn reference<'a>(&'a self, draws: &'a [Vec<f64>]) -> Reference<'a> {
         match self {
             Self::Draws(_) => Reference::Draws(PointCloud::equal(draws)),
+            Self::Pool(_, weights) => Reference::Draws(PointCloud::weighted(draws, Some(weights))),
             Self::Quadrature { marginals, pairs } => Reference::Exact { marginals, pairs },
             Self::Nothing(_) => Reference::None,
         }
@@ -51,8 +57,25 @@ impl Known {
     /// The draws, if there are any.
     pub fn draws(&self) -> &[Vec<f64>] {
         match self {
-            Self::Draws(draws) => draws,
+            Self::Draws(draws) | Self::Pool(draws, _) => draws,
             _ => &[],
+        }
+    }
+
+    /// A run's pool in the place of nothing.
+    pub fn or_pool(self, pool: Option<&Particles>) -> Self {
+        match (self, pool.and_then(|pool| Some((pool, pool.weights()?)))) {
+            (Self::Nothing(_), Some((pool, weights))) => heavy(pool.to_rows(), weights),
+            (known, _) => known,
+        }
+    }
+
+    /// The text in a legend; empty for "target".
+    pub fn label(&self) -> &'static str {
+        match self {
+            Self::Draws(_) => "target (exact draws)",
+            Self::Pool(..) => "weighted pool",
+            _ => "",
         }
     }
 }
@@ -80,6 +103,23 @@ pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>
         (known, fault)
     };
     known.unwrap_or_else(|| Known::Nothing(format!("the target has no exact draws, {fault}")))
+}
+
+/// A pool without its lightest points.
+fn heavy(points: Vec<Vec<f64>>, weights: &[f64]) -> Known {
+    let mut sorted = weights.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let total: f64 = sorted.iter().sum();
+    let mut sum = 0.0;
+    let least = sorted.into_iter().find(|weight| {
+        sum += weight;
+        sum > LEFT_OUT * total
+    });
+    let own = points.into_iter().zip(weights.iter().copied());
+    let (points, weights) = own
+        .filter(|(_, weight)| least.is_some_and(|least| *weight >= least))
+        .unzip();
+    Known::Pool(points, weights)
 }
 
 /// Exact draws that are `inside`.
@@ -213,6 +253,22 @@ mod tests {
         let curve = marginals[0].as_ref().unwrap();
         let edge = curve.x.iter().zip(&curve.y).next().unwrap();
         assert!(*edge.1 < 0.05, "{edge:?}");
+    }
+
+    #[test]
+    fn a_pool_stands_in_for_nothing_and_its_light_points_are_left_out() {
+        let points: Vec<[f64; 1]> = (0..10_i8).map(|i| [f64::from(i)]).collect();
+        let weights: Vec<f64> = (0..10).map(|i| if i < 4 { 1e-7 } else { 1.0 }).collect();
+        let pool = Particles::new(&points, Some(&weights));
+        let nothing = || Known::Nothing(String::new());
+        assert!(matches!(nothing().or_pool(None), Known::Nothing(_)));
+        let Known::Pool(points, weights) = nothing().or_pool(Some(&pool)) else {
+            panic!("the pool");
+        };
+        assert_eq!((points.len(), &weights[..]), (6, &[1.0; 6][..]));
+        assert_eq!(points[0], [4.0]);
+        let draws = Known::Draws(Vec::new()).or_pool(Some(&pool));
+        assert_eq!(draws.label(), "target (exact draws)");
     }
 
     #[test]

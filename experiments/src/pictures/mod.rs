@@ -21,7 +21,7 @@ use crate::plots::{
     AxisKind, DensityPlot, LineSeries, MultiplesPanel, MultiplesPlot, PlotError, PointCloud, StripPanel, StripPlot,
     corner, histogram, multiples, strip,
 };
-use crate::sampling::{Outcome, Watched};
+use crate::sampling::{Outcome, SurveyPoint, Watched};
 use crate::{CommandError, console};
 
 /// The file of the marginals.
@@ -30,6 +30,8 @@ pub const HISTOGRAM: &str = "histogram.svg";
 pub const CORNER: &str = "corner.svg";
 /// The file of the quantities' history.
 pub const TRACE: &str = "trace.svg";
+/// The file of the survey's history.
+pub const SURVEY: &str = "survey.svg";
 /// The file of the cloud's history.
 pub const STRIP: &str = "strip.svg";
 
@@ -61,6 +63,7 @@ impl Subject<'_> {
     /// What the target refuses, and files that cannot be written.
     pub fn draw(&self, directory: &OutputDirectory) -> Result<Vec<&'static str>, CommandError> {
         let known = on_target!(self.target, target, D => Ok(look::<D>(target.as_ref(), self.mesh)))?;
+        let known = known.or_pool(self.outcome.pool.as_ref());
         if let Known::Nothing(reason) = &known {
             console::notice(&format!("--plots: no exact marginals and no contours: {reason}"));
         }
@@ -68,6 +71,7 @@ impl Subject<'_> {
         let drawings = [
             (HISTOGRAM, Some(self.histogram(&known))),
             (CORNER, (dimension > 1).then(|| self.corner(&known))),
+            (SURVEY, self.survey()),
             (TRACE, self.trace()),
             (STRIP, if dimension == 2 { self.strip(&known) } else { None }),
         ];
@@ -111,8 +115,25 @@ impl Subject<'_> {
         Beside {
             title: self.title(),
             shown,
-            ..Beside::new(self.target, &self.outcome.particles, known, label(known))
+            ..Beside::new(self.target, &self.outcome.particles, known, known.label())
         }
+    }
+
+    /// The survey by rounds; none without one.
+    fn survey(&self) -> Option<Result<String, PlotError>> {
+        let survey = &self.outcome.survey;
+        let over_evaluations = |y_label: &str, y_axis, value: fn(&SurveyPoint) -> f64| {
+            let points = survey.iter().map(|point| (point.evaluations as f64, value(point)));
+            MultiplesPanel::over(y_label, y_axis, [LineSeries::through("survey", points)])
+        };
+        let panels = [
+            over_evaluations("effective size of the pool", AxisKind::Logarithmic, |point| {
+                point.effective_size
+            }),
+            over_evaluations("effective share of the round", AxisKind::Linear, |point| point.share),
+        ];
+        let plot = MultiplesPlot::traces(self.title(), "evaluations", panels);
+        (!survey.is_empty()).then(|| multiples(&plot))
     }
 
     /// None without a trace, which is said.
@@ -164,7 +185,7 @@ impl Subject<'_> {
             panels: &panels,
             labels: &self.target.coordinate_names(),
             reference: known.reference(known.draws()),
-            reference_label: label(known),
+            reference_label: known.label(),
         }))
     }
 
@@ -223,12 +244,5 @@ impl<'a> Beside<'a> {
             reference: self.known.reference(&draws),
             reference_label: self.label,
         })
-    }
-}
-
-fn label(known: &Known) -> &'static str {
-    match known {
-        Known::Draws(_) => "target (exact draws)",
-        _ => "target",
     }
 }

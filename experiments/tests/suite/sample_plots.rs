@@ -40,7 +40,9 @@ fn every_method_has_its_pictures() {
     assert_eq!(names, ["corner.svg", "histogram.svg", "strip.svg"]);
     assert!(said.contains("no trace.svg: "), "{said}");
     // What an earlier run left under a name is gone.
-    let mut still = vec!["ais", "smc", "iid", "sobol", "stein-thinning"];
+    let (names, _) = drawn(root.path(), "--target banana --particles 80 --method ais");
+    assert_eq!(names, ["corner.svg", "histogram.svg", "survey.svg"]);
+    let mut still = vec!["smc", "iid", "sobol", "stein-thinning"];
     if cfg!(feature = "nuts") {
         still.push("nuts");
     }
@@ -70,22 +72,30 @@ fn pictures_change_no_particle() {
 }
 
 #[test]
-fn the_exact_marginal_is_there_where_it_can_be_had() {
+fn what_is_known_of_a_marginal_is_beside_it() {
     let root = tempfile::tempdir().unwrap();
     write_responses(&root.path().join("two.csv"), "y,age,dose");
     write_responses(&root.path().join("one.csv"), "y,age");
     let curve = |name: &str| text(root.path(), name).contains(">target");
 
     drawn(root.path(), "--target gaussian --dim 1 --particles 80");
-    assert_eq!(files(&root.path().join("p")), ["histogram.svg"]);
+    assert_eq!(files(&root.path().join("p")), ["histogram.svg", "survey.svg"]);
     assert!(curve("histogram.svg"));
     drawn(root.path(), "--target logistic --data one.csv --particles 80");
     assert!(curve("histogram.svg") && curve("corner.svg"));
     assert!(text(root.path(), "corner.svg").contains("age"));
     drawn(root.path(), "--target mixture-3 --dim 3 --particles 80");
     assert!(text(root.path(), "corner.svg").contains("exact draws"));
+    // Else what the run has weighed, and without that nothing.
     let (_, said) = drawn(root.path(), "--target logistic --data two.csv --particles 80");
-    assert!(!curve("histogram.svg") && !curve("corner.svg"));
+    let pool = |name: &str| text(root.path(), name).contains("weighted pool");
+    assert!(pool("histogram.svg") && pool("corner.svg") && !curve("corner.svg"));
+    assert!(!said.contains("no exact marginals"), "{said}");
+    let (_, said) = drawn(
+        root.path(),
+        "--target logistic --data two.csv --particles 80 --method svgd --steps 5",
+    );
+    assert!(!curve("histogram.svg") && !curve("corner.svg") && !pool("corner.svg"));
     assert!(said.contains("no exact marginals and no contours"), "{said}");
     let (_, said) = drawn(root.path(), "--target gaussian --dim 8 --particles 80 --method iid");
     assert!(said.contains("first 6 of 8"), "{said}");
