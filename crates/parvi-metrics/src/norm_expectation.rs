@@ -27,7 +27,9 @@ const MAXIMUM_NODES: usize = 1 << 13;
 pub(crate) struct NormExpectation<const D: usize> {
     eigenvalues: [f64; D],
     nodes: Vec<Node<D>>,
-    /// Σ over the nodes at the left, of e^{u/2}, e^{3u/2} and e^{5u/2}.
+    /// The largest E‖Z‖².
+    bound: f64,
+    /// Σ over the nodes at the left, of e^{u/2}, e^{3u/2} and e^{5u/2}, in units of the first three powers of 1 / `bound`.
     left: [f64; 3],
     /// Σ over the nodes at the right, of e^{−u/2}.
     right: f64,
@@ -46,7 +48,8 @@ impl<const D: usize> NormExpectation<D> {
     /// `None` if the range is empty or too long, which takes values that are not finite or not positive.
     pub(crate) fn new(eigenvalues: [f64; D], largest_square: f64) -> Option<Self> {
         let largest = eigenvalues.iter().fold(0.0, |a: f64, b| a.max(*b));
-        let start = -(largest_square + eigenvalues.iter().sum::<f64>()).ln() - LEFT_MARGIN;
+        let bound = largest_square + eigenvalues.iter().sum::<f64>();
+        let start = -bound.ln() - LEFT_MARGIN;
         if !start.is_finite() || !eigenvalues.iter().all(|value| *value > 0.0) {
             return None;
         }
@@ -68,11 +71,13 @@ impl<const D: usize> NormExpectation<D> {
             })
             .collect();
         // Σ_{k ≥ 1} e^{p (u₀ − k h)} = e^{p u₀} / (e^{p h} − 1).
-        let left = [0.5, 1.5, 2.5].map(|power| scale * (power * position(0)).exp() / (power * STEP).exp_m1());
+        let left = [1.0, 2.0, 3.0]
+            .map(|order: f64| scale * (-0.5 * start - order * LEFT_MARGIN).exp() / ((order - 0.5) * STEP).exp_m1());
         let right = scale * (-0.5 * position(count - 1)).exp() / (0.5 * STEP).exp_m1();
         Some(Self {
             eigenvalues,
             nodes,
+            bound,
             left,
             right,
         })
@@ -93,9 +98,10 @@ impl<const D: usize> NormExpectation<D> {
                 total[lane] += node.weight[lane] * complement[lane];
             }
         }
-        // −log φ = k₁t − k₂t² + k₃t³ − …
+        // −log φ = k₁t − k₂t² + k₃t³ − …, t in units of 1 / `bound`: cubes of large variances would overflow.
         let (mut k1, mut k2, mut k3) = (0.0, 0.0, 0.0);
         for (value, square) in self.eigenvalues.iter().zip(squares) {
+            let (value, square) = (value / self.bound, square / self.bound);
             k1 += value + square;
             k2 += value * (value + 2.0 * square);
             k3 += value * value * (4.0 / 3.0 * value + 4.0 * square);
@@ -131,7 +137,7 @@ mod tests {
 
     #[test]
     fn one_dimension_is_the_folded_normal() {
-        for scale in [1e-6, 0.3, 1.0, 1e4] {
+        for scale in [1e-140, 1e-6, 0.3, 1.0, 1e4, 1e140] {
             for bound in [1.0, 30.0, 1e6] {
                 let table = NormExpectation::new([scale * scale], (bound * scale) * (bound * scale)).unwrap();
                 for m in [0.0, 1e-8, 0.1, 0.5, 1.0, 2.0, 3.5, 6.0, 10.0, 29.0, 1e3, 9e5] {
