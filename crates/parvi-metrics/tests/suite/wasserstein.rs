@@ -65,6 +65,28 @@ proptest! {
     }
 }
 
+/// High orders and far scales, where powers of distances are beyond all numbers.
+#[test]
+fn every_order_has_the_scale_of_the_points() {
+    let (a, b) = ([[0.0], [1.0], [2.0]], [[0.5], [1.25], [2.0]]);
+    for scale in [1e-200, 1e-4, 1e200] {
+        let (x, y) = (a.map(|[x]| [x * scale]), b.map(|[y]| [y * scale]));
+        let distance = |order| wasserstein_1d(&Cloud::new(&x).unwrap(), &Cloud::new(&y).unwrap(), order);
+        for order in [1.5_f64, 3.0, 300.0] {
+            let expected = 0.5 * ((1.0 + 0.5_f64.powf(order)) / 3.0).powf(order.recip());
+            let value = distance(order).unwrap() / scale;
+            assert!(
+                (value / expected - 1.0).abs() < 1e-14,
+                "{scale} {order}: {value} {expected}"
+            );
+        }
+        assert_eq!(
+            wasserstein_1d(&Cloud::new(&x).unwrap(), &Cloud::new(&x).unwrap(), 3.0),
+            Ok(0.0)
+        );
+    }
+}
+
 #[test]
 fn sliced_is_the_mean_over_directions() {
     let (a, b) = (normal_points::<3>(50, 1), normal_points::<3>(70, 2));
