@@ -4,8 +4,8 @@
 
 use mpm_core::{Apic, Basis, Mpm, NoBodyForce, Particles};
 use mpm_materials::{ElasticModuli, Material, NeoHookean};
-use mpm_mesh::generate::{EdgeTarget, ball, disk, with_outer_layer};
-use mpm_mesh::{MeshBasis, SimplexMesh};
+use mpm_mesh::generate::{EdgeTarget, ball, disk, rectangle, with_outer_layer};
+use mpm_mesh::{KernelWidth, MeshBasis, SimplexMesh};
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::dot;
 use proptest::prelude::*;
@@ -72,6 +72,29 @@ proptest! {
         is_sound(&cube::<1>(9, 1.0, jitter, seed), seed);
         is_sound(&cube::<2>(5, 1.0, jitter, seed), seed);
         is_sound(&cube::<3>(3, 1.0, 0.7 * jitter, seed), seed);
+    }
+}
+
+/// Cells that grow from flat ones to large ones: most nodes of a ring can be far to one side.
+#[test]
+fn they_are_positive_where_cells_are_flat() {
+    let lengths = EdgeTarget {
+        length: 0.15,
+        angle: 0.0,
+    };
+    let even = rectangle([0.0; 2], [1.0; 2], &lengths).unwrap();
+    let vertices = even.vertices().iter().map(|[x, y]| [x.powi(6), *y]).collect();
+    let mesh = SimplexMesh::new(vertices, even.cells().flatten().copied().collect()).unwrap();
+    for width in [KernelWidth::LongestEdge, KernelWidth::Local] {
+        let basis = MeshBasis::new(&mesh)
+            .unwrap()
+            .with_positive_weights(true)
+            .with_kernel_width(width);
+        for x in points(&basis, 4000, 1, |_| true) {
+            for weight in basis.weights_at(&x).unwrap() {
+                assert!(weight.entry.weight >= 0.0, "{width:?}, {x:?}: {}", weight.entry.weight);
+            }
+        }
     }
 }
 

@@ -12,6 +12,9 @@ use crate::kernel::{LARGEST_COUNT, Sums};
 const ITERATIONS: usize = 40;
 const HALVINGS: usize = 20;
 
+/// Share of the predicted fall that a step of the descent has to bring.
+const SUFFICIENT_FALL: f64 = 1e-4;
+
 /// What may be left of Σ w − 1, and of Σ w r / h.
 const TOLERANCE: f64 = 1e-13;
 
@@ -104,7 +107,7 @@ impl<const D: usize> Problem<'_, D> {
         first.fold((totals.values[0] - 1.0).abs(), f64::max)
     }
 
-    /// Newton's method, with directions halved until the error falls.
+    /// Newton's method, with directions halved until the error falls, and as a [`descent`](Self::descent) from where that ends.
     pub fn solution(&self, start: State<D>) -> Option<(State<D>, Totals)> {
         let mut here = (start, self.totals(&start));
         let mut error = self.error(&here.1);
@@ -130,7 +133,55 @@ impl<const D: usize> Problem<'_, D> {
                 break;
             }
         }
-        (error <= TOLERANCE).then_some(here)
+        if error <= TOLERANCE {
+            return Some(here);
+        }
+        self.descent(here)
+    }
+
+    /// Σ d Ψ(s) − α, Ψ(s) = ½ s² for s ≥ θ and ½ θ² − θ² ln (2 − s/θ) below.
+    fn objective(&self, state: &State<D>) -> f64 {
+        let floor = Lanes::splat(self.floor);
+        let mut sum = Lanes::ZERO;
+        self.for_each(state, |sample, s, _| {
+            let past = (Lanes::splat(2.0) - s / floor).fast_max(Lanes::splat(1.0));
+            let energy = s.simd_lt(floor).select(
+                floor * floor * (Lanes::splat(0.5) - past.ln()),
+                Lanes::splat(0.5) * s * s,
+            );
+            sum += sample * energy;
+        });
+        sum.reduce_add() - state.level
+    }
+
+    /// Newton's method, with directions halved until the convex function falls or the error halves: where most nodes have s far below θ, as in flat cells, the error alone falls too slowly.
+    fn descent(&self, start: (State<D>, Totals)) -> Option<(State<D>, Totals)> {
+        let mut here = start;
+        let mut error = self.error(&here.1);
+        let mut objective = self.objective(&here.0);
+        for _ in 0..ITERATIONS {
+            let direction = System::<D>::of(&here.1)?.solve(&here.1);
+            let along = |a: usize| here.1.values[1 + a] * direction.slope[a];
+            let fall = (here.1.values[0] - 1.0) * direction.level + (0..D).map(along).sum::<f64>();
+            let mut way = 1.0;
+            let mut next = None;
+            for _ in 0..HALVINGS {
+                let state = here.0.moved(way, &direction);
+                let totals = self.totals(&state);
+                let (left, value) = (self.error(&totals), self.objective(&state));
+                if value <= objective + SUFFICIENT_FALL * way * fall || left < 0.5 * error {
+                    next = Some((state, totals, left, value));
+                    break;
+                }
+                way *= 0.5;
+            }
+            let (state, totals, left, value) = next?;
+            (here, error, objective) = ((state, totals), left, value);
+            if error <= TOLERANCE {
+                return Some(here);
+            }
+        }
+        None
     }
 
     /// d ψ′ of all nodes, and D_p⁻¹ of the weights.
