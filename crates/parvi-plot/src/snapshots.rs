@@ -21,7 +21,7 @@ pub struct SnapshotPanel {
     pub title: String,
     /// Where the particles are.
     pub positions: Vec<[f64; 2]>,
-    /// A value of each particle.
+    /// A value of each particle; one that is not a number is left out.
     pub values: Vec<f64>,
 }
 
@@ -53,16 +53,22 @@ pub struct SnapshotsPlot {
 /// Draws snapshots as an SVG document.
 ///
 /// # Errors
-/// [`PlotError::Empty`] without a particle that can be drawn; [`PlotError::Size`] if a panel has not one value per particle.
+/// [`PlotError::Empty`] without a particle that can be drawn or an area to draw it in; [`PlotError::Size`] if a panel has not one value per particle.
 pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     for panel in &plot.panels {
         check_size(|| panel.title.clone(), panel.positions.len(), panel.values.len())?;
     }
-    let mut all = plot.panels.iter().flat_map(|panel| &panel.positions);
-    if !all.any(|x| plottable(x[0]) && plottable(x[1])) {
+    let mut all = plot
+        .panels
+        .iter()
+        .flat_map(|panel| panel.positions.iter().zip(&panel.values));
+    if !all.any(|(x, value)| plottable(x[0]) && plottable(x[1]) && !value.is_nan()) {
         return Err(PlotError::empty("particles"));
     }
     let [low, high] = plot.extent;
+    if !(0..2).all(|a| plottable(low[a]) && plottable(high[a]) && low[a] < high[a]) {
+        return Err(PlotError::empty("extent"));
+    }
     let x = Scale::around([low[0], high[0]], AxisKind::Linear, 0.0);
     let y = Scale::around([low[1], high[1]], AxisKind::Linear, 0.0);
     let columns = plot.columns.clamp(1, plot.panels.len());
@@ -123,7 +129,7 @@ fn draw_particles(drawing: &mut Drawing, axes: &Panel, plot: &SnapshotsPlot, pan
     drawing.clipped(axes.area, |drawing| {
         for (number, color) in CLASSES.iter().enumerate() {
             let particles = panel.positions.iter().zip(&panel.values);
-            let members = particles.filter(|(_, value)| class(plot, **value) == number);
+            let members = particles.filter(|(_, value)| !value.is_nan() && class(plot, **value) == number);
             let square = |(at, _): (&[f64; 2], &f64)| {
                 let (x, y) = axes.point(at[0], at[1])?;
                 Some([(x - 0.5 * size, y), (x + 0.5 * size, y)])

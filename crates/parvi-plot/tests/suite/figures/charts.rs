@@ -280,6 +280,38 @@ fn snapshots_colour_particles_by_class() {
 }
 
 #[test]
+fn a_snapshot_leaves_out_what_has_no_class_and_refuses_an_extent_that_has_no_area() {
+    let of = |positions: Vec<[f64; 2]>, values: Vec<f64>, extent| {
+        snapshots(&SnapshotsPlot {
+            extent,
+            spacing: 0.5,
+            bounds: vec![1.0],
+            columns: 1,
+            panels: vec![SnapshotPanel {
+                title: String::new(),
+                positions,
+                values,
+            }],
+            ..SnapshotsPlot::default()
+        })
+    };
+    let area = [[0.0, 0.0], [4.0, 2.0]];
+    let alone = of(vec![[0.5, 0.5]], vec![3.0], area).unwrap();
+    assert_eq!(
+        of(vec![[0.5, 0.5], [1.5, 0.5]], vec![3.0, f64::NAN], area).unwrap(),
+        alone
+    );
+    assert_empty(of(vec![[0.5, 0.5]], vec![f64::NAN], area));
+    for extent in [
+        [[0.0, 0.0], [0.0, 2.0]],
+        [[0.0, 0.0], [f64::NAN, 2.0]],
+        [[4.0, 0.0], [0.0, 2.0]],
+    ] {
+        assert_empty(of(vec![[0.5, 0.5]], vec![3.0], extent));
+    }
+}
+
+#[test]
 fn a_strip_has_a_panel_for_each_moment_on_common_axes() {
     let moments: Vec<Vec<Vec<f64>>> = (0..6)
         .map(|k| {
