@@ -11,7 +11,8 @@ const FLAT: f64 = 1e-3;
 /// Patch recovery (Zienkiewicz & Zhu 1992, doi 10.1002/nme.1620330702): at each vertex the value there of the polynomial of degree one that fits
 /// the `values` at all points in the cells around it best in the sense of Σ_p `weights`_p |·|², and Σ_n b_n of these at every point.
 ///
-/// A linear field comes back as it was, in cells whose vertices have D + 1 points in general position around them; a vertex with fewer has their mean. Values at points
+/// A linear field comes back as it was, in cells whose vertices have D + 1 points around them that spread in all directions, along none less than a thirtieth of what they do along another; other
+/// vertices have the mean. Values at points
 /// outside of the mesh stay and count nowhere. Weights are positive, as volumes are. Of the three lists the shortest counts.
 pub fn recovered<const D: usize>(
     search: &CellSearch<D>,
