@@ -5,7 +5,7 @@ use crate::{Constraints, Target};
 /// The target log q(y) = log p(f(y)) + log |det J| of a density p of N constrained coordinates x = f(y); from
 /// [`Constraints::target`].
 ///
-/// Scores stay finite wherever those of p do, and for |y| ≤ 700 where p diverges no faster than c / distance at the boundary of
+/// Scores stay finite wherever those of p times ∂x/∂y do, and for |y| ≤ 700 where p diverges no faster than c / distance at the boundary of
 /// its support. Near a boundary that is not zero, distances to it have the rounding of x: within 10⁻¹³ of a bound of 1 (y ≈ 30)
 /// a score of p itself has three digits.
 #[derive(Clone, Debug)]
