@@ -5,7 +5,7 @@
 ///
 /// J. Zhang, M. A. Stephens, *A new and efficient estimation method for the generalized Pareto distribution*, Technometrics 51, 2009, with the weak prior of
 /// A. Vehtari, D. Simpson, A. Gelman, Y. Yao, J. Gabry, *Pareto smoothed importance sampling*, JMLR 25, 2024, App. C. `None` for fewer than five
-/// weights in the tail, or a tail of equal weights.
+/// weights in the tail, or a tail whose smallest quarter equals the largest weight below it, as zeros do where less than that much of the tail has any weight.
 pub fn pareto_k(weights: &[f64]) -> Option<f64> {
     let n = weights.len();
     let tail = (n / 5).min((3.0 * (n as f64).sqrt()).ceil() as usize);
