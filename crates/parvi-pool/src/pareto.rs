@@ -1,6 +1,6 @@
 //! Pareto k̂: how heavy the tail of the weights is.
 
-/// The shape k̂ of the generalised Pareto law that fits the largest min(N/5, 3√N) of the weights: below 0.5 their variance is finite, above 0.7 no estimate that
+/// The shape k̂ of the generalised Pareto law that fits the largest min(N/5, 3√N), rounded up, of the weights: below 0.5 their variance is finite, above 0.7 no estimate that
 /// rests on them is to be relied on.
 ///
 /// J. Zhang, M. A. Stephens, *A new and efficient estimation method for the generalized Pareto distribution*, Technometrics 51, 2009, with the weak prior of
@@ -8,7 +8,7 @@
 /// weights in the tail, or a tail whose smallest quarter equals the largest weight below it, as zeros do where less than that much of the tail has any weight.
 pub fn pareto_k(weights: &[f64]) -> Option<f64> {
     let n = weights.len();
-    let tail = (n / 5).min((3.0 * (n as f64).sqrt()).ceil() as usize);
+    let tail = n.div_ceil(5).min((3.0 * (n as f64).sqrt()).ceil() as usize);
     if tail < 5 {
         return None;
     }
