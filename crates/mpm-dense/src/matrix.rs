@@ -1,6 +1,12 @@
 use std::ops::{Index, IndexMut};
 
-use faer::Mat;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::householder::{
+    apply_block_householder_sequence_on_the_left_in_place_scratch as applied_scratch,
+    apply_block_householder_sequence_on_the_left_in_place_with_conj as apply_reflections,
+};
+use faer::linalg::qr::no_pivoting::factor;
+use faer::{Conj, Mat, Par};
 
 /// A matrix of real numbers, stored by columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,9 +64,29 @@ impl DenseMatrix {
         self.0.col_iter_mut().flat_map(|column| column.iter_mut())
     }
 
-    /// Orthonormal columns that span what these span: Q of A = Q R by Householder reflections, with as many columns as A, or as rows if these are fewer.
+    /// Orthonormal columns that span what these span: Q of A = Q R by Householder reflections, with as many columns as A, or as rows if these are fewer. On one thread: with more, sums are taken in another order, and the bits would hang on their number.
     pub fn orthonormal_columns(&self) -> Self {
-        Self(self.0.qr().compute_thin_Q())
+        let (rows, columns) = (self.rows(), self.columns());
+        let size = rows.min(columns);
+        let block = factor::recommended_block_size::<f64>(rows, columns);
+        let mut reflections = self.0.clone();
+        let mut coefficients = Mat::zeros(block, size);
+        let factoring = factor::qr_in_place_scratch::<f64>(rows, columns, block, Par::Seq, Default::default());
+        let applying = applied_scratch::<f64>(rows, block, size);
+        let mut scratch = MemBuffer::new(factoring.or(applying));
+        let stack = MemStack::new(&mut scratch);
+        let factors = reflections.as_mut();
+        factor::qr_in_place(factors, coefficients.as_mut(), Par::Seq, stack, Default::default());
+        let mut columns = Mat::identity(rows, size);
+        apply_reflections(
+            reflections.get(.., ..size),
+            coefficients.as_ref(),
+            Conj::No,
+            columns.as_mut(),
+            Par::Seq,
+            stack,
+        );
+        Self(columns)
     }
 }
 

@@ -1,4 +1,7 @@
-use faer::Side;
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::{Mat, Par};
 
 use crate::DenseMatrix;
 
@@ -12,7 +15,7 @@ pub struct SymmetricEigen {
 }
 
 impl SymmetricEigen {
-    /// That of a symmetric matrix, of which only what is at and below the diagonal is read; `None` where the iteration does not converge and where entries are not finite.
+    /// That of a symmetric matrix, of which only what is at and below the diagonal is read; `None` where the iteration does not converge and where entries are not finite. On one thread, as singular values are.
     pub fn new(matrix: &DenseMatrix) -> Option<Self> {
         if matrix.rows() == 0 {
             return Some(Self {
@@ -20,12 +23,22 @@ impl SymmetricEigen {
                 vectors: DenseMatrix::zeros(0, 0),
             });
         }
-        let found = matrix.0.self_adjoint_eigen(Side::Lower).ok()?;
-        let values: Vec<f64> = found.S().column_vector().iter().copied().collect();
-        let vectors = DenseMatrix(found.U().to_owned());
-        values
-            .iter()
-            .all(|value| value.is_finite())
-            .then_some(Self { values, vectors })
+        let size = matrix.rows();
+        let (mut values, mut vectors) = (Diag::zeros(size), Mat::zeros(size, size));
+        let scratch = self_adjoint_evd_scratch::<f64>(size, ComputeEigenvectors::Yes, Par::Seq, Default::default());
+        self_adjoint_evd(
+            matrix.0.as_ref(),
+            values.as_mut(),
+            Some(vectors.as_mut()),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+            Default::default(),
+        )
+        .ok()?;
+        let values: Vec<f64> = values.column_vector().iter().copied().collect();
+        values.iter().all(|value| value.is_finite()).then_some(Self {
+            values,
+            vectors: DenseMatrix(vectors),
+        })
     }
 }

@@ -3,6 +3,7 @@
 mod factors;
 mod least_squares;
 mod products;
+mod threads;
 
 use mpm_dense::DenseMatrix;
 
