@@ -121,6 +121,23 @@ impl Judgement {
         if let Some((key, _)) = numbers.iter().find(is_nan) {
             return Some((*key, "NaN: must be a number".to_owned()));
         }
+        let below_zero =
+            |(key, value): &&(&str, Option<f64>)| *key == "tolerance" && value.is_some_and(|value| value < 0.0);
+        if let Some((key, Some(value))) = numbers.iter().find(below_zero) {
+            return Some((*key, format!("{value}: must be at least 0, or nothing can keep it")));
+        }
+        if let Self::PowerLaw {
+            from: Some(from),
+            to: Some(to),
+            ..
+        } = self
+            && from > to
+        {
+            return Some((
+                "from",
+                format!("{from}: must be at most `to` = {to}, or no x is between them"),
+            ));
+        }
         let Self::Bound {
             reference, tolerance, ..
         } = self
@@ -132,5 +149,29 @@ impl Judgement {
             .into_iter()
             .find(|(_, is_missing)| *is_missing && !rows_have_limits)?;
         Some((key, "is missing: what is read has none of its own".to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_nothing_can_keep_is_a_fault() {
+        let fault = |judgement: Judgement| judgement.fault(true).map(|(key, _)| key);
+        let bound = |tolerance| Judgement::Bound {
+            reference: Some(1.0),
+            tolerance: Some(tolerance),
+            at: Vec::new(),
+        };
+        let law = |tolerance, from, to| Judgement::PowerLaw {
+            exponent: 1.0,
+            tolerance,
+            from: Some(from),
+            to: Some(to),
+        };
+        assert_eq!([bound(-1e-3), bound(0.0)].map(fault), [Some("tolerance"), None]);
+        let laws = [law(-0.1, 1.0, 2.0), law(0.1, 2.0, 1.0), law(0.1, 1.0, 1.0)];
+        assert_eq!(laws.map(fault), [Some("tolerance"), Some("from"), None]);
     }
 }
