@@ -29,26 +29,48 @@ pub(super) fn around<const D: usize>(
         .map_err(|error| SceneFault::value("mesh.outer_layer", true, format!("false for this mesh: {error}")))?;
     let holds = |condition| !matches!(condition, FacetCondition::Friction | FacetCondition::Traction);
     let held = scene.facets.iter().filter(|table| holds(table.condition));
-    let before = planes.len();
-    planes.extend(held.filter_map(|table| plane_of(inner, groups.get(&table.group)?)));
-    if planes.len() == before {
-        return Ok(plain);
-    }
-    let shortest = |mesh: &SimplexMesh<D>| mesh.edge_lengths().shortest;
-    let mirrored = completed(inner, &planes).ok();
-    Ok(mirrored
-        .filter(|mirrored| shortest(mirrored) > LEAST_EDGE * shortest(&plain))
-        .unwrap_or(plain))
+    let held: Vec<_> = held
+        .filter_map(|table| plane_of(inner, groups.get(&table.group)?))
+        .collect();
+    Ok(if held.is_empty() {
+        plain
+    } else {
+        mirrored(inner, plain, planes, held)
+    })
 }
+
+/// A completed mesh, or one with images behind held planes, too: behind all of them, or behind those that do not spoil the mesh.
+fn mirrored<const D: usize>(
+    inner: &SimplexMesh<D>,
+    plain: SimplexMesh<D>,
+    mut planes: Vec<Plane<D>>,
+    held: Vec<Plane<D>>,
+) -> SimplexMesh<D> {
+    let shortest = |mesh: &SimplexMesh<D>| mesh.edge_lengths().shortest;
+    let least = LEAST_EDGE * shortest(&plain);
+    let sound = |planes: &[_]| completed(inner, planes).ok().filter(|mesh| shortest(mesh) > least);
+    if let Some(whole) = sound(&[planes.as_slice(), &held].concat()) {
+        return whole;
+    }
+    let mut whole = plain;
+    for plane in held {
+        planes.push(plane);
+        match sound(&planes) {
+            Some(mesh) => whole = mesh,
+            None => planes.truncate(planes.len() - 1),
+        }
+    }
+    whole
+}
+
+/// A point, and the unit normal into the mesh.
+type Plane<const D: usize> = ([f64; D], [f64; D]);
 
 /// Where a plane group goes over into the rest of the boundary at an angle near 180°, images leave a narrow notch: cells there may shorten the edges, and with them the step, by this factor.
 const LEAST_EDGE: f64 = 0.7;
 
 /// The mesh with the images of its cells behind these planes, and with other cells around the rest of its boundary.
-fn completed<const D: usize>(
-    inner: &SimplexMesh<D>,
-    planes: &[([f64; D], [f64; D])],
-) -> Result<SimplexMesh<D>, GenerationError> {
+fn completed<const D: usize>(inner: &SimplexMesh<D>, planes: &[Plane<D>]) -> Result<SimplexMesh<D>, GenerationError> {
     let mut whole = inner.clone();
     for (point, normal) in planes {
         if let Some(mirrored) = with_mirrored_layer(&whole, point, normal)? {
@@ -65,8 +87,8 @@ fn completed<const D: usize>(
 /// Facets whose normals differ by less, and whose vertices are nearer to a plane in units of the longest edge, are in it.
 const IN_THE_PLANE: f64 = 1e-9;
 
-/// The plane that all of some facets of the boundary lie in, if they do: a point, and the unit normal into the mesh.
-fn plane_of<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> Option<([f64; D], [f64; D])> {
+/// The plane that all of some facets of the boundary lie in, if they do.
+fn plane_of<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> Option<Plane<D>> {
     let (mut sum, mut area) = ([0.0; D], 0.0);
     for facet in named_facets(inner, facets) {
         accumulate(&mut sum, -facet.area, &facet.normal);
@@ -79,4 +101,39 @@ fn plane_of<const D: usize>(inner: &SimplexMesh<D>, facets: &[u32]) -> Option<([
     let limit = IN_THE_PLANE * inner.edge_lengths().longest;
     let in_plane = |&vertex: &u32| dot(&normal, &subtract(&position(vertex), &point)).abs() <= limit;
     (length > (1.0 - IN_THE_PLANE) * area && facets.iter().all(in_plane)).then_some((point, normal))
+}
+
+#[cfg(test)]
+mod tests {
+    use mpm_mesh::generate::{EdgeTarget, outlines};
+
+    use super::*;
+
+    /// A hull whose plane bottom goes over into its sides at 170°, where images would leave notches of 20°; at its top there are none.
+    #[test]
+    fn a_plane_that_spoils_the_mesh_takes_no_images_from_another() {
+        let hull = vec![
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [1.985, 0.174],
+            [1.985, 1.0],
+            [-0.985, 1.0],
+            [-0.985, 0.174],
+        ];
+        let target = EdgeTarget {
+            length: 0.2,
+            angle: 0.2,
+        };
+        let inner = outlines(&[hull], &target).expect("a mesh");
+        let plain = completed(&inner, &[]).expect("a layer");
+        let (bottom, top) = (([0.0, 0.0], [0.0, 1.0]), ([0.0, 1.0], [0.0, -1.0]));
+        let expected = mirrored(&inner, plain.clone(), Vec::new(), vec![top]);
+        assert!(expected.vertices().len() != plain.vertices().len());
+        for held in [vec![top, bottom], vec![bottom, top]] {
+            let found = mirrored(&inner, plain.clone(), Vec::new(), held);
+            assert!(found.vertices() == expected.vertices());
+        }
+        let nothing = mirrored(&inner, plain.clone(), Vec::new(), vec![bottom]);
+        assert!(nothing.vertices() == plain.vertices());
+    }
 }
