@@ -2,7 +2,6 @@
 
 use mpm_kernels::{LANES, Lanes};
 
-use super::cell_ring::side_by_side;
 use crate::adjacency::Lists;
 use crate::{Rings, SimplexMesh};
 
@@ -83,10 +82,9 @@ impl Stencils {
         self.vertices[vertex as usize]
     }
 
-    /// Positions of four vertices by component; only the first D have a meaning.
-    #[inline(always)]
-    pub fn positions(&self, vertices: &[u32; LANES]) -> [Lanes; LANES] {
-        side_by_side(vertices, &self.vertices)
+    /// Positions of all vertices, zeros behind the coordinates.
+    pub fn vertices(&self) -> &[Lanes] {
+        &self.vertices
     }
 
     /// Places of the largest ring.

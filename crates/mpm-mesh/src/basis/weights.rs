@@ -5,7 +5,7 @@ use mpm_kernels::{Entry, LANES, Lanes};
 use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
 
-use super::cell_ring::CellRing;
+use super::cell_ring::{CellRing, side_by_side};
 use super::exact::gradient_at;
 use super::{MeshBasis, ParticleFit};
 use crate::kernel::{Fit, Floor, RingLanes};
@@ -72,7 +72,9 @@ impl<const D: usize> MeshBasis<D> {
                 for cell in part.cells.clone() {
                     let (range, length) = (schedule.cell(cell), self.groups_of(cell));
                     let mesh_cell = self.particle_cells[range.start];
-                    self.collect(mesh_cell, &mut lanes);
+                    let nodes = &self.cell_nodes[self.cell_node_starts[cell]..self.cell_node_starts[cell + 1]];
+                    // The positions of active nodes, and their numbers, have just been written down: those of the mesh are farther away.
+                    self.collect(mesh_cell, &mut lanes, nodes, &self.active_positions);
                     for x in &sorted[range] {
                         particles[next].cell = mesh_cell;
                         particles[next].samples = (first + sample) as u32;
@@ -109,11 +111,13 @@ impl<const D: usize> MeshBasis<D> {
         (self.cell_node_starts[cell + 1] - self.cell_node_starts[cell]) / LANES
     }
 
+    /// The ring of a cell, whose nodes have these numbers among `positions`.
     #[inline(always)]
-    fn collect(&self, cell: u32, lanes: &mut RingLanes<D>) {
+    fn collect(&self, cell: u32, lanes: &mut RingLanes<D>, nodes: &[u32], positions: &[Lanes]) {
         let (ring, joined) = (self.stencils.groups(cell), self.stencils.joined(cell));
         let vertices = self.mesh().cell(cell as usize);
-        lanes.collect(vertices, ring, joined, |four| self.stencils.positions(four));
+        let fours = nodes.as_chunks().0.iter();
+        lanes.collect(vertices, ring, joined, fours.map(|four| side_by_side(four, positions)));
     }
 
     /// Let a particle at `x` with the ring of a cell be solved next; where `x` is outside of it, with b of the nearest point.
@@ -171,7 +175,7 @@ impl<const D: usize> MeshBasis<D> {
     /// side.
     pub fn weights_from(&self, cell: u32, x: &[f64; D]) -> Vec<WeightAt<D>> {
         let (ring, mut lanes) = (self.stencils.ring(cell), RingLanes::new(self.weight));
-        self.collect(cell, &mut lanes);
+        self.collect(cell, &mut lanes, self.stencils.groups(cell), self.stencils.vertices());
         let mut samples = vec![Lanes::ZERO; ring.len().div_ceil(LANES)];
         self.push(cell, x, &mut lanes, 0);
         let mut fit = Fit::NOTHING;

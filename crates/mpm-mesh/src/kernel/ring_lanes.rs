@@ -93,26 +93,26 @@ impl<const D: usize> RingLanes<D> {
     }
 
     /// Collect the ring of the next cell: groups of its nodes, the sets of the cell's vertices that they are joined to or are (nothing where a node is
-    /// repeated), and where four vertices are.
+    /// repeated), and where they are, four by four.
     #[inline(always)]
     pub fn collect(
         &mut self,
         cell: &[u32],
         ring: &[u32],
         joined: &[u8],
-        positions: impl Fn(&[u32; LANES]) -> [Lanes; LANES],
+        positions: impl Iterator<Item = [Lanes; LANES]>,
     ) {
         if self.used >= MANY {
             self.forget();
         }
-        let (rings, sets) = (ring.as_chunks().0, joined.as_chunks().0);
-        (self.start, self.used) = (self.used, self.used + rings.len());
+        let sets = joined.as_chunks().0;
+        (self.start, self.used) = (self.used, self.used + sets.len());
         if self.used > self.groups.len() {
             self.groups.resize(self.used, Group::NOTHING);
         }
         let groups = &mut self.groups[self.start..self.used];
-        for ((group, ring), joined) in groups.iter_mut().zip(rings).zip(sets) {
-            group.positions.copy_from_slice(&positions(ring)[..D]);
+        for ((group, positions), joined) in groups.iter_mut().zip(positions).zip(sets) {
+            group.positions.copy_from_slice(&positions[..D]);
             group.joined = *joined;
         }
         if !self.weight.diminishes() {
