@@ -1,5 +1,6 @@
 //! results.csv: one row per finished case, appended whole.
 
+use std::collections::HashSet;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -52,7 +53,7 @@ impl ResultsFile {
             file,
             columns,
         };
-        Ok((results, row_file::parse(path, &bytes, columns)?))
+        Ok((results, once_each(path, row_file::parse(path, &bytes, columns)?)?))
     }
 
     /// Adds a row with one write and waits until it is on the disk.
@@ -64,6 +65,30 @@ impl ResultsFile {
         self.file.sync_data().map_err(failed)?;
         self.has_header = true;
         Ok(())
+    }
+}
+
+/// Reads the rows; a last line without its end is skipped.
+///
+/// # Errors
+/// [`CommandError::File`], or [`CommandError::ResultsUnreadable`] with the line that does not fit.
+pub fn read(path: &Path, columns: &str) -> Result<Vec<Row>, CommandError> {
+    once_each(path, row_file::read(path, columns)?)
+}
+
+/// The rows, unless a case has two: it would count twice.
+fn once_each(path: &Path, rows: Vec<Row>) -> Result<Vec<Row>, CommandError> {
+    let mut seen = HashSet::new();
+    match rows.iter().position(|row| !seen.insert(row.case())) {
+        None => Ok(rows),
+        Some(place) => {
+            let message = format!(
+                "line {}: the case `{}` has a row already",
+                place + 2,
+                rows[place].case()
+            );
+            Err(CommandError::unreadable(path, message))
+        }
     }
 }
 
@@ -88,7 +113,7 @@ mod tests {
         results.append(&row("b", None)).unwrap();
         drop(results);
         let expected = [row("a, with comma", Some(0.1 + 0.2)), row("b", None)];
-        assert_eq!(row_file::read(&path, COLUMNS).unwrap(), expected);
+        assert_eq!(read(&path, COLUMNS).unwrap(), expected);
     }
 
     #[test]
@@ -141,9 +166,10 @@ mod tests {
             ("case,value\na,1.0\nb,two\n", "line 3: `two` in the column `value`"),
             ("case,status\na,fine\n", "line 2: `fine` is no `status`"),
             ("case,value\na\n", "line"),
+            ("case,value\na,1\nb,1\na,2\n", "line 4: the case `a` has a row already"),
         ] {
             std::fs::write(&path, text).unwrap();
-            let message = row_file::read(&path, "case status value").err().unwrap().to_string();
+            let message = read(&path, "case status value").err().unwrap().to_string();
             assert!(message.contains(expected), "{message}");
         }
     }

@@ -15,7 +15,6 @@ use super::directory::StudyDirectory;
 use super::manifest::{self, Manifest};
 use super::results::{self, ResultsFile};
 use super::row::RunRow;
-use super::row_file;
 use super::yardstick::CurrentYardstick;
 use crate::output::AtomicFile;
 use crate::plots::results::Row;
@@ -160,7 +159,7 @@ fn run_missing<S: Study>(
 }
 
 fn write_report<S: Study>(study: &S, directory: &StudyDirectory) -> Result<(), CommandError> {
-    let rows = row_file::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
+    let rows = results::read(&directory.file(results::FILE_NAME), S::COLUMNS)?;
     let completed: Vec<Row> = rows.iter().map(derived::completed).collect();
     let mut page = (S::REPORT)(study, &completed.iter().collect(), directory)?;
     let manifest = Manifest::read(&directory.file(manifest::FILE_NAME))?;
