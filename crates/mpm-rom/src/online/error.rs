@@ -90,17 +90,17 @@ pub enum OnlineError {
         points: usize,
     },
     /// The map has turned a point inside out or made it NaN.
-    #[error("step {step}: the map has volume ratio {volume_ratio} at X = {reference:?}")]
+    #[error("step {step}: the map has volume ratio {volume_ratio} at X = {reference:?} from the centroid at rest")]
     Inverted {
         /// Number of the step, counted from 1.
         step: u64,
-        /// X.
+        /// X, from the centroid at rest.
         reference: Vec<f64>,
         /// J = det F.
         volume_ratio: f64,
     },
     /// A sample point has left the range of the grid's numbers, or is NaN.
-    #[error("step {step}: sample point {sample} is at {position:?}")]
+    #[error("step {step}: sample point {sample} is at {position:?} from the centroid at rest")]
     Position {
         /// Number of the step, counted from 1.
         step: u64,
