@@ -29,10 +29,13 @@ pub(crate) struct Weighted<const D: usize> {
     pub rise: f64,
 }
 
+/// Points and particles on one side of a cut.
+type Side<'a, const D: usize> = (&'a mut [Weighted<D>], &'a mut [[f64; D]]);
+
 /// Particles between which a piece may be cut, as shares of its own: where counts and masses agree best.
 const WINDOW: [f64; 2] = [0.375, 0.625];
 
-/// Does something with the points and particles of every piece, of `most` particles at most.
+/// Does something with the points and particles of every piece, of `most` particles at most; pieces side by side.
 ///
 /// A piece is cut across the direction that it is longest in, near the middle. Points keep their order within each.
 pub(crate) fn in_pieces<const D: usize>(
@@ -40,7 +43,7 @@ pub(crate) fn in_pieces<const D: usize>(
     particles: &mut [[f64; D]],
     directions: &Matrix<D>,
     most: usize,
-    act: &impl Fn(&[Weighted<D>], &mut [[f64; D]]),
+    act: &(impl Fn(&[Weighted<D>], &mut [[f64; D]]) + Sync),
 ) {
     if particles.is_empty() || points.is_empty() {
         return;
@@ -53,8 +56,10 @@ pub(crate) fn in_pieces<const D: usize>(
         // A side without mass, beside one heavy point, would draw its particles nowhere.
         let has_mass = |side: &[Weighted<D>]| side.iter().map(|point| point.rise).sum::<f64>() > 0.0;
         if !(few.is_empty() || many.is_empty()) && has_mass(low) && has_mass(high) {
-            in_pieces(low, few, directions, most, act);
-            in_pieces(high, many, directions, most, act);
+            let sides = [(low, few), (high, many)];
+            mpm_parallel::each(sides.into_iter(), &|(points, particles): Side<'_, D>| {
+                in_pieces(points, particles, directions, most, act);
+            });
             return;
         }
     }
@@ -124,6 +129,9 @@ fn cut<'a, const D: usize>(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Mutex;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
     use super::*;
 
     fn plane(count: usize) -> Vec<[f64; 2]> {
@@ -169,13 +177,14 @@ mod tests {
             .map(|(_, x)| x)
             .collect();
         let count = particles.len();
-        let pieces = std::cell::RefCell::new(Vec::new());
+        let pieces = Mutex::new(Vec::new());
         let note = |points: &[Weighted<2>], particles: &mut [[f64; 2]]| {
             let mass: f64 = points.iter().map(|point| point.rise).sum();
-            pieces.borrow_mut().push((mass / total * count as f64, particles.len()));
+            let piece = (mass / total * count as f64, particles.len());
+            pieces.lock().unwrap().push(piece);
         };
         in_pieces(&mut points, &mut particles, &oblique_directions(1), 100, &note);
-        let pieces = pieces.into_inner();
+        let pieces = pieces.into_inner().unwrap();
         assert_eq!(pieces.iter().map(|(_, own)| own).sum::<usize>(), count);
         assert!(pieces.iter().all(|(_, own)| (30..=100).contains(own)));
         let excess = |(mass, own): &(f64, usize)| (mass - *own as f64).abs();
@@ -192,13 +201,13 @@ mod tests {
             rise: 1.0,
         };
         let mut points: Vec<Weighted<1>> = (0..9).map(weighted).collect();
-        let calls = std::cell::Cell::new(0);
+        let calls = AtomicUsize::new(0);
         let count = |_: &[Weighted<1>], particles: &mut [[f64; 1]]| {
             assert_eq!(particles.len(), 7);
-            calls.set(calls.get() + 1);
+            calls.fetch_add(1, Ordering::Relaxed);
         };
         in_pieces(&mut points, &mut [[1.0]; 7], &Matrix::IDENTITY, 2, &count);
-        assert_eq!(calls.get(), 1);
+        assert_eq!(calls.into_inner(), 1);
     }
 
     #[test]
