@@ -117,7 +117,7 @@ options! {
     flip_share: f64 = "A" in SHARE,
     /// Friction, per unit of time
     friction: f64 = "GAMMA" in NOT_NEGATIVE,
-    /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way [default: 4; with --survey off: 3, with --steps too: 1]
+    /// Rounds of the steps, at most: after a survey while they bring the particles nearer, 0: none; without one while they are still on their way [default: 4 with --steps, a noisy pool or more than 16384 particles, else 0; with --survey off: 3, with --steps too: 1]
     rounds: RoundCount = "N",
     /// More particles than their share for light parts of the target, with weights; after a survey [default: off]
     weighted: Switch,

@@ -63,7 +63,7 @@ pub struct Arguments {
     /// Write a frame of every K-th step
     #[arg(long, value_name = "K", default_value = "10", requires = "frames")]
     every: StepCount,
-    /// Directory for pictures of the particles: marginals, corner plot, trace, and for d = 2 the cloud at six moments
+    /// Directory for pictures of the particles: marginals, corner plot, the survey by rounds, trace, and for d = 2 the cloud at six moments
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
     #[command(flatten)]
