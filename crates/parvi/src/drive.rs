@@ -138,6 +138,9 @@ where
             let ends = watching.look(step, body, frame, spacing).map_err(failed)?;
             if ends && step < steps {
                 (steps, ended) = (step, true);
+            } else if step < late {
+                // Should the next look end the run.
+                earlier = Extent::of(&body.particles().positions);
             }
         }
         step += 1;

@@ -40,7 +40,7 @@ pub struct Certificate {
     pub moments: Vec<MomentEstimate>,
     /// Degree of the polynomials that the estimates rest on, where they rest on scores; else 0.
     pub degree: usize,
-    /// What the mean or the spread of a body changed by over the last tenth of the steps, in its standard deviations: the largest.
+    /// What the mean or the spread of a body changed by over the last tenth of the steps, or, of a run that its watch has ended, since the look before: in its standard deviations, the largest.
     pub drift: f64,
     /// ½ Σ m |v|² at the end (total mass 1), in frame coordinates.
     pub kinetic_energy: f64,

@@ -100,7 +100,7 @@ with_defaults! {
         /// Evaluate the score at each node once, for as long as the grid stands; the same bits as without. A score that is estimated anew with every call is then that of its
         /// first estimate.
         pub cached_scores: bool = true,
-        /// Judge the particles at the end, which takes M evaluations of the score ([`Samples::judging_evaluations`](crate::Samples::judging_evaluations)).
+        /// State an outcome at the end, by the M evaluations of the score there that the residual takes in any case ([`Samples::judging_evaluations`](crate::Samples::judging_evaluations)).
         pub certificate: bool = true,
         /// Measure residual and energy every so many steps (0: only at the end).
         pub trace_every: usize = 0,

@@ -77,6 +77,10 @@ fn a_body_at_rest_ends_its_run() {
     let samples = watched(watch, friction);
     let seen = samples.watched.expect("watched");
     assert!(seen.ended && samples.steps < 500, "{} steps", samples.steps);
+    // Since the look before, not since the start.
+    let certificate = samples.certificate.expect("judged");
+    assert!(certificate.drift < 0.01, "{certificate:?}");
+    assert_eq!(certificate.outcome.name(), "stalled");
     let (last, rest) = seen.history.split_last().expect("looks");
     assert_eq!(last.0, samples.steps);
     let best = rest[..rest.len() - 3]
