@@ -236,9 +236,8 @@ velocity = {{ kind = "rotation", centre = [0.0, 0.0], rate = [0.5] }}
         1.0 - momentum[1] / momentum[0]
     };
     let lost = [0.25, 0.125, 0.0625].map(|spacing| spun("kind = \"flip\", flip_share = 1.0", spacing));
-    println!("FLIP: {lost:?}");
     for (lost, expected) in lost.iter().zip([0.227, 0.065, 0.0124]) {
-        assert!((lost / expected - 1.0).abs() < 0.05, "{lost} {expected}");
+        assert!((lost / expected - 1.0).abs() < 0.05, "{lost}, not {expected}");
     }
     assert!(spun("kind = \"apic\"", 0.125).abs() < 1e-10);
 }
