@@ -92,7 +92,8 @@ impl Annealing {
             Self::Geometric { from, to } => from.signum() * (from.abs().powf(1.0 - progress) * to.abs().powf(progress)),
             Self::Linear { from, to } => from + (to - from) * progress,
             Self::Cyclic { from, to, cycles } => {
-                let place = (step.max(1) - 1) * cycles % steps.max(1);
+                // More cycles than steps are as many: all steps end one.
+                let place = (step.max(1) - 1) * cycles.min(steps) % steps.max(1);
                 let last = steps.saturating_sub(cycles);
                 let share = if place < last { place as f64 / last as f64 } else { 1.0 };
                 from + (to - from) * share
@@ -146,6 +147,15 @@ mod tests {
         };
         let alphas: Vec<f64> = (1..=8).map(|step| schedule.at(step, 8)).collect();
         assert_eq!(alphas, [0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn cycles_may_be_any_number() {
+        for cycles in [8, 9, 1000, usize::MAX] {
+            let (from, to) = (0.5, 3.0);
+            let schedule = Annealing::Cyclic { from, to, cycles };
+            assert!((1..=8).all(|step| schedule.at(step, 8) == to), "{cycles}");
+        }
     }
 
     #[test]
