@@ -1,5 +1,7 @@
 //! An expectation and how far it may be off.
 
+use std::ops::RangeInclusive;
+
 /// An expectation with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -20,15 +22,17 @@ impl Estimate {
         let (mut variance, mut largest) = (0.0, 0.0);
         let carried = terms.iter().filter(|(.., evaluated)| *evaluated);
         let carriers = carriers(carried.map(|(c, f, _)| (c * f).abs()));
+        let unit = unit_of(terms.iter().map(|(c, f, _)| (c * f).abs()));
         for (c, f, evaluated) in terms {
             let term = c * (f - value);
             if evaluated {
-                variance += term * term;
+                let scaled = term / unit;
+                variance += scaled * scaled;
             } else {
                 largest = f64::max(largest, term.abs());
             }
         }
-        let standard_error = f64::sqrt(variance);
+        let standard_error = unit * f64::sqrt(variance);
         let estimate = Self {
             value,
             standard_error,
@@ -37,6 +41,16 @@ impl Estimate {
         (estimate, largest)
     }
 }
+
+/// What numbers a ≥ 0 are divided by before they are squared: 1, or the largest of them where its square is no number to rely on, as of likelihoods.
+fn unit_of(sizes: impl Iterator<Item = f64>) -> f64 {
+    let largest = sizes.fold(0.0, f64::max);
+    let is_far_out = largest > 0.0 && largest.is_finite() && !SQUARED_AS_THEY_ARE.contains(&largest);
+    if is_far_out { largest } else { 1.0 }
+}
+
+/// Numbers that are squared as they are.
+const SQUARED_AS_THEY_ARE: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// (Σ a)² / Σ a² of numbers a ≥ 0; 0 of zeros.
 fn carriers(sizes: impl Iterator<Item = f64> + Clone) -> f64 {
@@ -56,6 +70,20 @@ fn carriers(sizes: impl Iterator<Item = f64> + Clone) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_error_is_in_units_of_its_function() {
+        let error = |unit: f64| {
+            let terms = [(0.4, unit), (0.2, 3.0 * unit), (0.4, -unit)];
+            let (estimate, _) = Estimate::of_terms(terms.into_iter().map(|(c, f)| (c, f, true)));
+            estimate.standard_error / unit
+        };
+        let expected = error(1.0);
+        assert!(expected > 0.1);
+        for unit in [1e-300, 1e-170, 1e-99, 1e99, 1e170, 1e300] {
+            assert!((error(unit) / expected - 1.0).abs() < 1e-12, "{unit}: {}", error(unit));
+        }
+    }
 
     #[test]
     fn an_event_is_carried_by_the_points_that_meet_it() {

@@ -53,6 +53,17 @@ impl Expectation {
         }
     }
 
+    /// That of the function times `unit` > 0.
+    pub(crate) fn times(self, unit: f64) -> Self {
+        Self {
+            average: self.average * unit,
+            estimate: self.estimate * unit,
+            standard_deviation: self.standard_deviation * unit,
+            unexplained: self.unexplained * unit,
+            standard_error: self.standard_error * unit,
+        }
+    }
+
     /// sd(r) / sd(f); 0 for a constant.
     pub fn unexplained_share(&self) -> f64 {
         if self.standard_deviation > 0.0 {

@@ -1,5 +1,7 @@
 //! E\[f\] of a user's function, with its error.
 
+use std::ops::RangeInclusive;
+
 use parvi_targets::{Target, scores_in_calls};
 
 use super::Expectation;
@@ -45,10 +47,26 @@ fn of_values<const D: usize>(target: &dyn Target<D>, samples: &Samples<D>, value
     let mut scores = vec![[0.0; D]; positions.len()];
     scores_in_calls(target, positions, &mut scores);
     let weights = samples.weights.as_deref();
-    ControlVariates::explaining(positions, &scores, weights, EXPLAINED, |regression, _| {
-        let found = regression.expectation(values);
+    let unit = unit_of(values);
+    let scaled: Vec<f64> = values.iter().map(|value| value / unit).collect();
+    let found = ControlVariates::explaining(positions, &scores, weights, EXPLAINED, |regression, _| {
+        let found = regression.expectation(&scaled);
         (found.unexplained_share(), found)
-    })
+    });
+    found.map(|found| found.times(unit))
+}
+
+/// Largest values that are squared as they are.
+const SQUARED_AS_THEY_ARE: RangeInclusive<f64> = 1e-100..=1e100;
+
+/// What values are divided by before they are squared: 1, or the largest of them where its square is no number to rely on, as of likelihoods.
+fn unit_of(values: &[f64]) -> f64 {
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    if largest > 0.0 && !SQUARED_AS_THEY_ARE.contains(&largest) {
+        largest
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
@@ -75,5 +93,29 @@ mod tests {
         let exact = (-2f64).exp();
         assert!((wave.average - exact).abs() <= 3.0 * wave.standard_error, "{wave:?}");
         assert!(expectation(&target, &samples, |x| x[0].ln()).is_none());
+    }
+
+    #[test]
+    fn an_error_is_in_units_of_its_function() {
+        let target = Gaussian::<1>::standard();
+        let frame = parvi_targets::Frame::identity();
+        let samples = MpmOptions::default()
+            .sample(&target, &frame, &Run::new(200, 3), &mut Silent)
+            .unwrap();
+        let of = |unit: f64| expectation(&target, &samples, |x| unit * (1.0 + (2.0 * x[0]).sin().abs())).unwrap();
+        let ordinary = of(1.0);
+        assert!(ordinary.standard_error > 1e-4);
+        for unit in [1e-300, 1e-170, 1e170, 1e300] {
+            let extreme = of(unit);
+            for (value, expected) in [
+                (extreme.average, ordinary.average),
+                (extreme.estimate, ordinary.estimate),
+                (extreme.standard_deviation, ordinary.standard_deviation),
+                (extreme.unexplained, ordinary.unexplained),
+                (extreme.standard_error, ordinary.standard_error),
+            ] {
+                assert!((value / unit / expected - 1.0).abs() < 1e-9, "{unit}: {extreme:?}");
+            }
+        }
     }
 }
