@@ -1,6 +1,7 @@
 //! The score as a body force in the coordinates of the frame.
 
 use mpm_core::{BodyForce, ForceLocation, Masses, MpmError, Sites};
+use mpm_tensor::vector::is_finite;
 use parvi_targets::{Frame, Target, scores_in_calls};
 
 use crate::choices::{NonFiniteScores, ScoreLocation};
@@ -35,7 +36,7 @@ impl<'a, const D: usize> FramedScore<'a, D> {
         }
     }
 
-    /// Scores at `zs`; one that is not finite is replaced or an error, as `non_finite` says.
+    /// Scores at `zs`; one that is not finite, in either coordinates, is replaced or an error, as `non_finite` says.
     ///
     /// # Errors
     /// [`MpmError::BodyForceNotFinite`].
@@ -45,19 +46,22 @@ impl<'a, const D: usize> FramedScore<'a, D> {
         scores_in_calls(self.target, &self.points, out);
         self.evaluations += zs.len() as u64;
         for (index, score) in out.iter_mut().enumerate() {
-            if !score.iter().all(|c| c.is_finite()) {
-                if self.non_finite == NonFiniteScores::PullBack {
-                    *score = zs[index].map(|c| -c);
-                    self.replaced += 1;
-                    continue;
-                }
-                return Err(MpmError::BodyForceNotFinite {
-                    index,
-                    position: self.points[index].to_vec(),
-                    value: score.to_vec(),
-                });
+            let pulled_back = self.frame.pull_back_score(score);
+            if is_finite(&pulled_back) {
+                *score = pulled_back;
+                continue;
             }
-            *score = self.frame.pull_back_score(score);
+            if self.non_finite == NonFiniteScores::PullBack {
+                *score = zs[index].map(|c| -c);
+                self.replaced += 1;
+                continue;
+            }
+            let value = if is_finite(score) { &pulled_back } else { &*score };
+            return Err(MpmError::BodyForceNotFinite {
+                index,
+                position: self.points[index].to_vec(),
+                value: value.to_vec(),
+            });
         }
         Ok(())
     }
@@ -179,5 +183,50 @@ impl<const D: usize> BodyForce<D> for ScoreForce<'_, D> {
             *force = self.at_node(masses(node), force);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A target of one score.
+    struct Pulling([f64; 2]);
+
+    impl Target<2> for Pulling {
+        fn log_density(&self, _: &[f64; 2]) -> f64 {
+            0.0
+        }
+
+        fn score(&self, _: &[f64; 2]) -> [f64; 2] {
+            self.0
+        }
+    }
+
+    #[test]
+    fn a_score_that_a_frame_makes_infinite_is_none() {
+        let frame = Frame::from_scales([1.0, 1.0], [4.0, 0.5]).expect("a frame");
+        let places = [[0.25, -2.0]];
+        for (score, value) in [
+            ([1e308, 0.0], vec![f64::INFINITY, 0.0]),
+            ([f64::INFINITY, 1.0], vec![f64::INFINITY, 1.0]),
+        ] {
+            let target = Pulling(score);
+            let mut scores = FramedScore::new(&target, &frame);
+            let mut out = [[0.0; 2]];
+            let error = scores.evaluate(&places, &mut out).expect_err("an infinite score");
+            let position = vec![2.0, 0.0];
+            assert_eq!(
+                error,
+                MpmError::BodyForceNotFinite {
+                    index: 0,
+                    position,
+                    value
+                }
+            );
+            scores.non_finite = NonFiniteScores::PullBack;
+            scores.evaluate(&places, &mut out).expect("a score in its place");
+            assert_eq!((out, scores.replaced), ([[-0.25, 2.0]], 1));
+        }
     }
 }
