@@ -45,7 +45,8 @@ pub enum ScoreLocation {
 /// What is done about a particle whose score is not finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonFiniteScores {
-    /// It is pulled towards the centre of the frame with the score of N(0, I) there, −z; such replacements are counted. A score that is not finite at the end is an error.
+    /// It is pulled towards the centre of the frame with the score of N(0, I) there, −z; such replacements are counted. A score that is not finite at the end is an error, unless scores are
+    /// cached: then nodes of their grid are replaced.
     #[default]
     PullBack,
     /// Steps are taken back to the last good state and made again with half of Δt, a limited number of times; then it is an error.

@@ -98,6 +98,14 @@ impl<'a, const D: usize> CachedScores<'a, D> {
         (locked(&self.tape).len() / (2 * D)) as u64
     }
 
+    /// Evaluations so far that gave no finite score where the grid has another in its place, those of an earlier process included.
+    pub fn replaced(&self) -> u64 {
+        let tape = locked(&self.tape);
+        let pairs = tape.as_chunks::<D>().0.as_chunks::<2>().0.iter();
+        let is_none = |score: &[f64; D]| !vector::is_finite(&self.frame.pull_back_score(score));
+        pairs.filter(|[_, score]| self.pulls_back && is_none(score)).count() as u64
+    }
+
     /// What is evaluated, for a checkpoint.
     pub fn tape(&self) -> Tape {
         self.tape.clone()

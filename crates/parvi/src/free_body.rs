@@ -97,14 +97,16 @@ pub(crate) fn sample<const D: usize>(
     }
     let alpha = options.annealing.last();
     let certificate = options.certificate.then(|| Certificate::of_scores(&body, alpha));
-    let mut disagreement = None;
+    let (mut disagreement, mut scores_replaced) = (None, body.samples.scores_replaced);
     if let Some(cached) = cached {
         disagreement = Some(cached.test(&body.samples.positions, 0).disagreement);
         evaluations = cached.evaluations();
+        scores_replaced = cached.replaced();
     }
     Ok(Samples {
         certificate,
         score_evaluations: evaluations,
+        scores_replaced,
         score_disagreement: disagreement,
         steps,
         ..body.samples

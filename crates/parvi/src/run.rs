@@ -85,9 +85,9 @@ pub struct Samples<const D: usize> {
     /// Evaluations of the log density at one point, in total.
     pub density_evaluations: u64,
     /// Scores of moving particles that were not finite and have been replaced ([`NonFiniteScores::PullBack`](crate::NonFiniteScores::PullBack)). Those of a survey are among
-    /// [`Pool::values_replaced`]; `smc` takes them for zero and counts none.
+    /// [`Pool::values_replaced`]; `smc` takes them for zero and counts none. With cached scores: evaluations that gave none.
     pub scores_replaced: u64,
-    /// With cached scores: root of the mean square of their difference from fresh ones at the particles, in units of one over the particles' standard deviation.
+    /// With cached scores: root of the mean square of their difference from fresh ones at the particles, in units of one over the particles' standard deviation; NaN where a fresh one is not finite.
     pub score_disagreement: Option<f64>,
     /// Galerkin–Stein residual relative to its value for i.i.d. draws (1 = as good as i.i.d.; smaller is better).
     pub residual: Option<f64>,

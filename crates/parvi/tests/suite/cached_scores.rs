@@ -56,6 +56,30 @@ fn moments<const D: usize>(positions: &[[f64; D]]) -> ([f64; D], [f64; D]) {
     (mean, std::array::from_fn(deviation))
 }
 
+/// N(0, I) whose score is not a number beyond a wall.
+struct Walled;
+
+impl Target<2> for Walled {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        -0.5 * (x[0] * x[0] + x[1] * x[1])
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        if x[0] > 3.0 { [f64::NAN; 2] } else { [-x[0], -x[1]] }
+    }
+}
+
+#[test]
+fn nodes_without_a_score_are_counted() {
+    let sample = |target: &dyn Target<2>| {
+        cached()
+            .sample(target, &Frame::identity(), &Run::new(200, 3), &mut Silent)
+            .expect("particles")
+    };
+    assert!(sample(&Walled).scores_replaced > 0);
+    assert_eq!(sample(&Gaussian::<2>::standard()).scores_replaced, 0);
+}
+
 #[test]
 fn a_posterior_takes_a_node_for_many_particles() {
     let target = build::<3>("wells", &Default::default()).expect("a target");
