@@ -37,7 +37,7 @@ pub trait Moving<'a, const D: usize> {
     /// a step.
     ///
     /// # Errors
-    /// [`MpmError`]: a particle that has no place on the basis.
+    /// [`MpmError`]: a particle that has no place on the basis, or no score.
     fn residual(&mut self, origin: &[f64; D], spacing: f64, scores: &[[f64; D]]) -> Result<Residual, MpmError>;
 
     /// ρ_h(x_p) = Σ_i w_ip m_i / h^D, the density on the grid of spacing h with a node at the origin, in the present order.

@@ -40,7 +40,7 @@ impl<const D: usize> Sum for Node<D> {
 /// Take a basis that the particles were not moved on: forces on the one they were moved on are small by construction.
 ///
 /// # Errors
-/// As [`Basis::rebuild`].
+/// As [`Basis::rebuild`], and [`MpmError::FieldLength`] unless there are as many scores as positions.
 pub fn galerkin_stein_residual<const D: usize, B: Basis<D>>(
     basis: &mut B,
     positions: &[[f64; D]],
@@ -57,6 +57,14 @@ pub(crate) fn galerkin_stein_residual_at<const D: usize, B: Basis<D>>(
     scores: &[[f64; D]],
     counts: impl Fn(usize) -> bool,
 ) -> Result<Residual, MpmError> {
+    let (length, expected) = (scores.len(), positions.len());
+    if length != expected {
+        return Err(MpmError::FieldLength {
+            field: "scores",
+            length,
+            expected,
+        });
+    }
     let sorted = basis.rebuild(positions)?;
     let order = basis.schedule().order();
     let mass = 1.0 / positions.len() as f64;
@@ -88,4 +96,29 @@ pub(crate) fn galerkin_stein_residual_at<const D: usize, B: Basis<D>>(
         value: square.sqrt(),
         of_independent_draws: expected.sqrt(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use mpm_core::SimplexLattice;
+
+    use super::*;
+
+    #[test]
+    fn every_particle_needs_a_score() {
+        let mut lattice = SimplexLattice::<2>::permutohedral([0.0; 2], 1.0).expect("a lattice");
+        let positions = [[0.1, 0.2], [0.4, -0.3]];
+        for length in [0, 1, 3] {
+            let refused = galerkin_stein_residual(&mut lattice, &positions, &vec![[0.0; 2]; length]);
+            let (field, expected) = ("scores", 2);
+            assert_eq!(
+                refused,
+                Err(MpmError::FieldLength {
+                    field,
+                    length,
+                    expected
+                })
+            );
+        }
+    }
 }
