@@ -1,4 +1,4 @@
-//! The same bits on one, two and three threads.
+//! The same bits on one, two and three threads, and of a body that goes on from its fields.
 
 use mpm_core::{Apic, Flip, Medium, Mpm, Particles, Pic, SimplexLattice, SplineGrid, Transfer, UniformBasis};
 use mpm_kernels::{Cubic, Quadratic, Spline};
@@ -146,4 +146,39 @@ fn lattice_in_all_its_tables() {
     same_on_any_pool("FLIP", || {
         run(20_000, lattice::<3>(0.3), flip, neo_hookean(0.5), nodal_well())
     });
+}
+
+/// The places after twenty steps, of a body that is made again from its fields after `kept` of them (0: not).
+fn made_again<B: UniformBasis<2>>(make: impl Fn() -> B, kept: usize) -> Vec<u64> {
+    let particles = Particles::at_rest(gaussian_cloud::<2>(2_000, 3), 1.0);
+    let mut mpm = Mpm::new(particles, make(), Apic, gas(), Pull::well());
+    for step in 0..20 {
+        if kept > 0 && step == kept {
+            let p = &mpm.particles;
+            let particles = Particles::in_order(
+                p.positions.clone(),
+                p.velocities.clone(),
+                p.masses.clone(),
+                p.affine.clone(),
+                p.identities().to_vec(),
+            );
+            let time = mpm.time;
+            mpm = Mpm::new(particles.unwrap(), make(), Apic, gas(), Pull::well());
+            mpm.time = time;
+        }
+        mpm.step(&free(0.02)).unwrap();
+    }
+    bits(&mpm.particles.positions)
+}
+
+#[test]
+fn a_body_goes_on_from_its_fields() {
+    let splines = || grid::<Quadratic, 3, 2>(0.1);
+    assert!(made_again(splines, 3) == made_again(splines, 0));
+    for kept in [8, 16] {
+        assert!(
+            made_again(|| lattice(0.1), kept) == made_again(|| lattice(0.1), 0),
+            "{kept}"
+        );
+    }
 }
