@@ -22,7 +22,7 @@ impl Estimate {
         let (mut variance, mut largest) = (0.0, 0.0);
         let carried = terms.iter().filter(|(.., evaluated)| *evaluated);
         let carriers = carriers(carried.map(|(c, f, _)| (c * f).abs()));
-        let unit = unit_of(terms.iter().map(|(c, f, _)| (c * f).abs()));
+        let unit = unit_of_squares(terms.iter().map(|(c, f, _)| c * f));
         for (c, f, evaluated) in terms {
             let term = c * (f - value);
             if evaluated {
@@ -42,9 +42,9 @@ impl Estimate {
     }
 }
 
-/// What numbers a ≥ 0 are divided by before they are squared: 1, or the largest of them where its square is no number to rely on, as of likelihoods.
-fn unit_of(sizes: impl Iterator<Item = f64>) -> f64 {
-    let largest = sizes.fold(0.0, f64::max);
+/// What numbers are divided by before they are squared: 1, or the largest of their sizes where its square is no number to rely on, as of likelihoods.
+pub fn unit_of_squares(numbers: impl Iterator<Item = f64>) -> f64 {
+    let largest = numbers.map(f64::abs).fold(0.0, f64::max);
     let is_far_out = largest > 0.0 && largest.is_finite() && !SQUARED_AS_THEY_ARE.contains(&largest);
     if is_far_out { largest } else { 1.0 }
 }

@@ -46,7 +46,7 @@ mod weights;
 
 pub use compiled::{condense, explore};
 pub use energy::EnergyDistance;
-pub use estimate::Estimate;
+pub use estimate::{Estimate, unit_of_squares};
 pub use measure::Measure;
 pub use mixture::Mixture;
 pub use options::{PoolError, PoolOptions, Round};

@@ -82,7 +82,7 @@ pub struct Samples<const D: usize> {
     pub score_evaluations: u64,
     /// Evaluations of the score at one point that only judge the particles of the paper's algorithms (trace, residual, certificate) and are not among the others.
     pub judging_evaluations: u64,
-    /// Evaluations of the log density at one point, in total.
+    /// Evaluations of the log density at one point, in total; `nuts` has log p with every score, which is counted there.
     pub density_evaluations: u64,
     /// Scores of moving particles that were not finite and have been replaced ([`NonFiniteScores::PullBack`](crate::NonFiniteScores::PullBack)). Those of a survey are among
     /// [`Pool::values_replaced`]; `smc` takes them for zero and counts none. With cached scores: evaluations that gave none.

@@ -1,7 +1,6 @@
 //! E\[f\] of a user's function, with its error.
 
-use std::ops::RangeInclusive;
-
+use parvi_pool::unit_of_squares;
 use parvi_targets::{Target, scores_in_calls};
 
 use super::Expectation;
@@ -47,26 +46,13 @@ fn of_values<const D: usize>(target: &dyn Target<D>, samples: &Samples<D>, value
     let mut scores = vec![[0.0; D]; positions.len()];
     scores_in_calls(target, positions, &mut scores);
     let weights = samples.weights.as_deref();
-    let unit = unit_of(values);
+    let unit = unit_of_squares(values.iter().copied());
     let scaled: Vec<f64> = values.iter().map(|value| value / unit).collect();
     let found = ControlVariates::explaining(positions, &scores, weights, EXPLAINED, |regression, _| {
         let found = regression.expectation(&scaled);
         (found.unexplained_share(), found)
     });
     found.map(|found| found.times(unit))
-}
-
-/// Largest values that are squared as they are.
-const SQUARED_AS_THEY_ARE: RangeInclusive<f64> = 1e-100..=1e100;
-
-/// What values are divided by before they are squared: 1, or the largest of them where its square is no number to rely on, as of likelihoods.
-fn unit_of(values: &[f64]) -> f64 {
-    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    if largest > 0.0 && !SQUARED_AS_THEY_ARE.contains(&largest) {
-        largest
-    } else {
-        1.0
-    }
 }
 
 #[cfg(test)]
