@@ -20,14 +20,14 @@ macro_rules! outcome {
             pub particles: Particles,
             /// Everything that was evaluated, weighed, with log p; where the method keeps it.
             pub pool: Option<Particles>,
-            /// The survey after each of its rounds and at its end, where there was one.
-            pub survey: Vec<SurveyPoint>,
             /// What a watch saw on the way.
             pub watched: Option<Watched>,
             /// log Z less the target's own, where both are known.
             pub log_evidence_deviation: Option<f64>,
             /// Time of the sampler alone, in seconds.
             pub wall_seconds: f64,
+            /// The survey after each of its rounds and at its end, where there was one.
+            pub survey: Vec<SurveyPoint>,
             $(#[doc = concat!("As `", stringify!($field), "` of [`Samples`].")] pub $field: $type,)*
         }
 

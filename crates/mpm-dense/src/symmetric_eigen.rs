@@ -26,15 +26,10 @@ impl SymmetricEigen {
         let size = matrix.rows();
         let (mut values, mut vectors) = (Diag::zeros(size), Mat::zeros(size, size));
         let scratch = self_adjoint_evd_scratch::<f64>(size, ComputeEigenvectors::Yes, Par::Seq, Default::default());
-        self_adjoint_evd(
-            matrix.0.as_ref(),
-            values.as_mut(),
-            Some(vectors.as_mut()),
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-            Default::default(),
-        )
-        .ok()?;
+        let mut memory = MemBuffer::new(scratch);
+        let (of, stack) = (matrix.0.as_ref(), MemStack::new(&mut memory));
+        let found = Some(vectors.as_mut());
+        self_adjoint_evd(of, values.as_mut(), found, Par::Seq, stack, Default::default()).ok()?;
         let values: Vec<f64> = values.column_vector().iter().copied().collect();
         values.iter().all(|value| value.is_finite()).then_some(Self {
             values,

@@ -112,14 +112,9 @@ mod tests {
     /// A hull whose plane bottom goes over into its sides at 170°, where images would leave notches of 20°; at its top there are none.
     #[test]
     fn a_plane_that_spoils_the_mesh_takes_no_images_from_another() {
-        let hull = vec![
-            [0.0, 0.0],
-            [1.0, 0.0],
-            [1.985, 0.174],
-            [1.985, 1.0],
-            [-0.985, 1.0],
-            [-0.985, 0.174],
-        ];
+        let right = [[1.0, 0.0], [1.985, 0.174], [1.985, 1.0]];
+        let left = right.iter().rev().map(|[x, y]| [1.0 - x, *y]);
+        let hull = right.into_iter().chain(left).collect();
         let target = EdgeTarget {
             length: 0.2,
             angle: 0.2,

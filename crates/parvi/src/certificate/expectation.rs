@@ -62,13 +62,16 @@ mod tests {
     use super::*;
     use crate::{MpmOptions, Run, Silent};
 
+    fn drawn<const D: usize>(target: &Gaussian<D>, count: usize) -> Samples<D> {
+        let (options, run) = (MpmOptions::default(), Run::new(count, 3));
+        let samples = options.sample(target, &parvi_targets::Frame::identity(), &run, &mut Silent);
+        samples.expect("particles")
+    }
+
     #[test]
     fn an_expectation_is_within_its_error() {
         let target = Gaussian::<2>::standard();
-        let frame = parvi_targets::Frame::identity();
-        let samples = MpmOptions::default()
-            .sample(&target, &frame, &Run::new(500, 3), &mut Silent)
-            .unwrap();
+        let samples = drawn(&target, 500);
         let square = expectation(&target, &samples, |x| x[0] * x[0]).unwrap();
         assert!((square.estimate - 1.0).abs() < 1e-9, "{square:?}");
         assert!(
@@ -84,10 +87,7 @@ mod tests {
     #[test]
     fn an_error_is_in_units_of_its_function() {
         let target = Gaussian::<1>::standard();
-        let frame = parvi_targets::Frame::identity();
-        let samples = MpmOptions::default()
-            .sample(&target, &frame, &Run::new(200, 3), &mut Silent)
-            .unwrap();
+        let samples = drawn(&target, 200);
         let of = |unit: f64| expectation(&target, &samples, |x| unit * (1.0 + (2.0 * x[0]).sin().abs())).unwrap();
         let ordinary = of(1.0);
         assert!(ordinary.standard_error > 1e-4);

@@ -8,7 +8,7 @@ use parvi::{
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, Ring, ScoreOnly, Target, build};
 
 use crate::robustness::Killer;
-use crate::support::{body_alone, on_threads};
+use crate::support::{Walled, body_alone, on_threads};
 
 /// Counts what is evaluated.
 struct Counted<'a, const D: usize> {
@@ -54,19 +54,6 @@ fn moments<const D: usize>(positions: &[[f64; D]]) -> ([f64; D], [f64; D]) {
     let mean: [f64; D] = std::array::from_fn(|a| positions.iter().map(|x| x[a]).sum::<f64>() / count);
     let deviation = |a: usize| (positions.iter().map(|x| (x[a] - mean[a]).powi(2)).sum::<f64>() / count).sqrt();
     (mean, std::array::from_fn(deviation))
-}
-
-/// N(0, I) whose score is not a number beyond a wall.
-struct Walled;
-
-impl Target<2> for Walled {
-    fn log_density(&self, x: &[f64; 2]) -> f64 {
-        -0.5 * (x[0] * x[0] + x[1] * x[1])
-    }
-
-    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
-        if x[0] > 3.0 { [f64::NAN; 2] } else { [-x[0], -x[1]] }
-    }
 }
 
 #[test]

@@ -9,20 +9,7 @@ use parvi::{
 };
 use parvi_targets::{CatalogueTarget, Frame, Gaussian, GaussianMixture, Target};
 
-use crate::support::{Hiccup, body_alone};
-
-/// N(0, I) whose score is not a number beyond a wall.
-struct Walled;
-
-impl Target<2> for Walled {
-    fn log_density(&self, x: &[f64; 2]) -> f64 {
-        -0.5 * (x[0] * x[0] + x[1] * x[1])
-    }
-
-    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
-        if x[0] > 3.0 { [f64::NAN; 2] } else { [-x[0], -x[1]] }
-    }
-}
+use crate::support::{Hiccup, Walled, body_alone};
 
 fn from(mean: f64, standard_deviation: f64) -> Run {
     let mut run = Run::new(300, 5);

@@ -82,3 +82,16 @@ impl Target<2> for Hiccup {
         }
     }
 }
+
+/// N(0, I) whose score is not a number beyond a wall.
+pub struct Walled;
+
+impl Target<2> for Walled {
+    fn log_density(&self, x: &[f64; 2]) -> f64 {
+        -0.5 * (x[0] * x[0] + x[1] * x[1])
+    }
+
+    fn score(&self, x: &[f64; 2]) -> [f64; 2] {
+        if x[0] > 3.0 { [f64::NAN; 2] } else { [-x[0], -x[1]] }
+    }
+}
