@@ -1,6 +1,6 @@
 //! The rebuild, phase 5: the fit of every particle; and weights at any point, to look at them.
 
-use mpm_core::{Member, MpmError};
+use mpm_core::{Basis, Member, MpmError};
 use mpm_kernels::{Entry, LANES, Lanes};
 use mpm_tensor::vector::subtract;
 use rayon::prelude::*;
@@ -67,12 +67,12 @@ impl<const D: usize> MeshBasis<D> {
         work.into_par_iter()
             .for_each(|(part, (particles, floors), (samples, gradients), first)| {
                 let points = &sorted[schedule.particles(&part.cells)];
-                let mut lanes = RingLanes::new(self.weight);
+                let (mut lanes, mut scratch) = (RingLanes::new(self.weight), Vec::new());
                 let (mut solved, mut next, mut sample) = (0, 0, 0);
                 for cell in part.cells.clone() {
                     let (range, length) = (schedule.cell(cell), self.groups_of(cell));
                     let mesh_cell = self.particle_cells[range.start];
-                    let nodes = &self.cell_nodes[self.cell_node_starts[cell]..self.cell_node_starts[cell + 1]];
+                    let nodes = self.cell_nodes(cell, &mut scratch);
                     // The positions of active nodes, and their numbers, have just been written down: those of the mesh are farther away.
                     self.collect(mesh_cell, &mut lanes, nodes, &self.active_positions);
                     for x in &sorted[range] {

@@ -57,7 +57,7 @@ fn mirrored<const D: usize>(
         planes.push(plane);
         match sound(&planes) {
             Some(mesh) => whole = mesh,
-            None => planes.truncate(planes.len() - 1),
+            None => drop(planes.pop()),
         }
     }
     whole
