@@ -14,7 +14,7 @@ pub enum Outcome {
     Stalled(Doubt),
     /// The steps were used up while the particles were still on their way.
     BudgetExhausted {
-        /// What the mean or the spread still changed by over the last tenth of the steps, in standard deviations.
+        /// [`Certificate::drift`](super::Certificate::drift).
         drift: f64,
     },
 }
@@ -253,7 +253,7 @@ impl Outcome {
             Self::Converged => None,
             Self::Stalled(doubt) => Some(doubt.naming(names)),
             Self::BudgetExhausted { drift } => Some(format!(
-                "the particles still moved by {drift:.2} standard deviations over the last tenth of the steps"
+                "the particles still moved at the end, by {drift:.2} standard deviations"
             )),
         }
     }
