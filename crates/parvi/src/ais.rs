@@ -5,7 +5,7 @@ use crate::task::{Task, sampler};
 use crate::{AisOptions, MpmOptions, SampleError, Samples, surveyed};
 
 sampler! {
-    /// M support points of the weighted pool, which is in [`Samples::pool`].
+    /// M support points of the weighted pool, which is in [`Samples::pool`]; or its points themselves, with their weights.
     ///
     /// # Errors
     /// [`SampleError`]: an option out of range, a target that is nowhere finite or where nothing could be weighed, or the observer's stop.
@@ -24,6 +24,11 @@ impl AisOptions {
             rounds: Some(0),
             ..MpmOptions::default()
         };
-        surveyed::sample_as_it_is(&options, &mut { task }, &mut Journal::default())
+        let sample = if self.condense {
+            surveyed::sample_as_it_is
+        } else {
+            surveyed::sample_points
+        };
+        sample(&options, &mut { task }, &mut Journal::default())
     }
 }

@@ -16,3 +16,19 @@ pub(crate) struct Driven<const D: usize> {
     /// ½ Σ m |v|² (total mass 1).
     pub kinetic_energy: f64,
 }
+
+impl<const D: usize> Driven<D> {
+    /// Particles that have not moved, without scores, in coordinates of the frame and of the target.
+    pub fn at_rest(positions: Vec<[f64; D]>, seen: Vec<[f64; D]>) -> Self {
+        Self {
+            samples: Samples {
+                positions: seen,
+                ..Samples::default()
+            },
+            positions,
+            scores: Vec::new(),
+            drift: 0.0,
+            kinetic_energy: 0.0,
+        }
+    }
+}

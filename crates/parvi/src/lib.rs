@@ -53,7 +53,7 @@ pub use exact::{independent_draws, sobol_points};
 pub use given::GivenParticles;
 pub use method::*;
 pub use parvi_body::{BasisChoice, NonFiniteScores, Residual, ScoreLocation, TransferChoice, galerkin_stein_residual};
-pub use parvi_pool::{Pool, PoolError};
+pub use parvi_pool::{Pool, PoolError, pareto_k};
 pub use parvi_targets::{CatalogueTarget, Constraints, Frame, Target};
 pub use point_set_error::PointSetError;
 pub use run::*;

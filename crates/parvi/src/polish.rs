@@ -13,7 +13,7 @@ use crate::mpm_body::{Body, Unfinished};
 use crate::start::positive;
 use crate::stein_discrepancy::squared_stein_discrepancy;
 use crate::strays::{BEYOND, bring_back, has_edges};
-use crate::{MomentCorrection, MpmOptions, NonFiniteScores, Observer, Run, SampleError, Samples, defaults};
+use crate::{MomentCorrection, MpmOptions, NonFiniteScores, Observer, Run, SampleError, defaults};
 
 /// Evens out particles that were condensed from a pool.
 pub(crate) struct Polish<'a, const D: usize> {
@@ -35,6 +35,18 @@ pub(crate) struct Polished<const D: usize> {
     pub spent: u64,
     pub densities: u64,
     pub steps: usize,
+}
+
+impl<const D: usize> Polished<D> {
+    /// Particles that have not moved, and how often log p was evaluated for them.
+    pub fn still(best: Driven<D>, densities: u64) -> Self {
+        Self {
+            best,
+            spent: 0,
+            densities,
+            steps: 0,
+        }
+    }
 }
 
 impl<'a, const D: usize> Polish<'a, D> {
@@ -68,12 +80,7 @@ impl<'a, const D: usize> Polish<'a, D> {
     pub fn run(&self, journal: &mut Journal, observer: &mut dyn Observer) -> Result<Polished<D>, SampleError> {
         let (condensed, mut densities) = self.condensed();
         if self.options.rounds == Some(0) {
-            return Ok(Polished {
-                best: condensed,
-                spent: 0,
-                densities,
-                steps: 0,
-            });
+            return Ok(Polished::still(condensed, densities));
         }
         let variance = self.pool.measure.variance * self.run.particles as f64;
         let is_noisy = variance >= defaults::LARGEST_POOL_NOISE;
@@ -137,17 +144,8 @@ impl<'a, const D: usize> Polish<'a, D> {
             (self.pool.condense(count), BEYOND)
         };
         let densities = bring_back(self.target, self.pool, beyond, &mut seen);
-        let driven = Driven {
-            positions: seen.iter().map(|x| self.frame.to_reference(x)).collect(),
-            samples: Samples {
-                positions: seen,
-                ..Samples::default()
-            },
-            scores: Vec::new(),
-            drift: 0.0,
-            kinetic_energy: 0.0,
-        };
-        (driven, densities)
+        let in_frame = seen.iter().map(|x| self.frame.to_reference(x)).collect();
+        (Driven::at_rest(in_frame, seen), densities)
     }
 
     /// A body that begins where `from` is.

@@ -11,6 +11,7 @@ use rand::RngExt;
 
 use crate::certificate::{Certificate, Doubt};
 use crate::checkpoint::Journal;
+use crate::driven::Driven;
 use crate::polish::{Polish, Polished};
 use crate::repetition::Repetition;
 use crate::score_check::ScoreCheck;
@@ -77,6 +78,22 @@ pub(crate) fn sample_as_it_is<const D: usize>(
     condensed(options, task, journal, pool, tails)
 }
 
+/// The points of a pool that weigh anything, with their weights, as particles.
+pub(crate) fn sample_points<const D: usize>(
+    options: &MpmOptions,
+    task: &mut Task<'_, D>,
+    journal: &mut Journal,
+) -> Result<Samples<D>, SampleError> {
+    let pool = surveyed(options, task, journal)?;
+    let tails = Tails::of(task.target, task.frame, &pool);
+    let checks = Checks::of(task, &pool, tails);
+    let pairs = pool.positions.iter().zip(&pool.weights);
+    let (positions, weights) = pairs.filter(|(_, weight)| **weight > 0.0).unzip();
+    let mut points = Driven::at_rest(Vec::new(), positions);
+    points.samples.weights = Some(weights);
+    Ok(judged(options, task, pool, &checks, Polished::still(points, 0)))
+}
+
 /// Particles from a pool, and what it says of them.
 fn condensed<const D: usize>(
     options: &MpmOptions,
@@ -85,42 +102,79 @@ fn condensed<const D: usize>(
     pool: Pool<D>,
     tails: Tails,
 ) -> Result<Samples<D>, SampleError> {
-    let check = ScoreCheck::of(task.target, &pool, &mut task.run.generator(Stream::Survey.of_body(1)));
-    let repetition = Repetition::of(task.target, &pool);
-    let of_tails = tails.endless.map(|[rays, of]| Doubt::Endless { rays, of });
-    // Of what is no function the others say nothing.
-    let doubt = repetition.doubt.or(of_tails).or(check.doubt);
+    let checks = Checks::of(task, &pool, tails);
     // What is no gradient, or leads nowhere, moves nothing.
     let still = MpmOptions {
         rounds: Some(0),
         ..options.clone()
     };
-    let options = if doubt.is_some() { &still } else { options };
-    let doubt = doubt.or(tails.spreadless.map(|[rays, of]| Doubt::Spreadless { rays, of }));
-    let polish = Polish::new(options, task.target, &pool, task.run)?;
+    let moving = if checks.of_target.is_some() { &still } else { options };
+    let polish = Polish::new(moving, task.target, &pool, task.run)?;
+    let mut polished = polish.run(journal, task.observer)?;
+    let samples = &mut polished.best.samples;
+    samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
+    samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
+    Ok(judged(options, task, pool, &checks, polished))
+}
+
+/// What is seen of a target and its pool before there are particles.
+struct Checks {
+    /// A reason not to move any.
+    of_target: Option<Doubt>,
+    /// Any reason.
+    doubt: Option<Doubt>,
+    spent: Spent,
+}
+
+impl Checks {
+    fn of<const D: usize>(task: &Task<'_, D>, pool: &Pool<D>, tails: Tails) -> Self {
+        let check = ScoreCheck::of(task.target, pool, &mut task.run.generator(Stream::Survey.of_body(1)));
+        let repetition = Repetition::of(task.target, pool);
+        let of_tails = tails.endless.map(|[rays, of]| Doubt::Endless { rays, of });
+        // Of what is no function the others say nothing.
+        let of_target = repetition.doubt.or(of_tails).or(check.doubt);
+        Self {
+            doubt: of_target
+                .clone()
+                .or(tails.spreadless.map(|[rays, of]| Doubt::Spreadless { rays, of })),
+            of_target,
+            spent: Spent {
+                densities: check.densities + tails.densities + repetition.densities,
+                scores: check.scores,
+            },
+        }
+    }
+}
+
+/// Particles with what their pool says of them.
+fn judged<const D: usize>(
+    options: &MpmOptions,
+    task: &Task<'_, D>,
+    pool: Pool<D>,
+    checks: &Checks,
+    polished: Polished<D>,
+) -> Samples<D> {
     let Polished {
         best,
         spent,
         densities,
         steps,
-    } = polish.run(journal, task.observer)?;
+    } = polished;
     let mut samples = best.samples;
-    samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
     samples.steps = steps;
-    samples.score_evaluations = spent + pool.score_evaluations + check.scores;
-    samples.density_evaluations =
-        densities + pool.density_evaluations + check.densities + tails.densities + repetition.densities;
-    samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
+    samples.score_evaluations = spent + pool.score_evaluations + checks.spent.scores;
+    samples.density_evaluations = densities + pool.density_evaluations + checks.spent.densities;
+    let rest = (best.drift, best.kinetic_energy);
     samples.certificate = options
         .certificate
-        .then(|| Certificate::of_pool(&pool, doubt, &samples, best.drift, best.kinetic_energy));
+        .then(|| Certificate::of_pool(&pool, checks.doubt.clone(), (&samples, task.run.particles), rest));
     samples.log_evidence = Some(pool.log_evidence);
     // Where log p is no number there may be as much mass as elsewhere.
     samples.log_evidence_error = Some(pool.log_evidence_error.hypot(pool.verdict.undefined));
     samples.pareto_k = pool.verdict.pareto_k;
     samples.unseen = Some(pool.unseen());
     samples.pool = Some(Box::new(pool));
-    Ok(samples)
+    samples
 }
 
 /// Particles that a pool is made for.

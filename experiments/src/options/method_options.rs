@@ -97,6 +97,8 @@ options! {
     evaluations: EvaluationCount = "N",
     /// How many times as much is drawn in search of pieces that no proposal has met, at least 1
     search_effort: f64 = "FACTOR" in RATIO,
+    /// Condense the pool to particles of equal mass; off: the points of the pool are the particles, with their weights [default: on]
+    condense: Switch,
     /// Move the basis' origin and draw its spacing every step
     shifts: Switch,
     /// Turn the lattice at random every step

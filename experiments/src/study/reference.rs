@@ -1,5 +1,6 @@
 //! What a target is held against that nobody knows in closed form: the importance sample of `parvi-targets`, whatever its dimension.
 
+use parvi::pareto_k;
 use parvi_targets::{CatalogueTarget, ImportanceSample, ReferenceOptions};
 
 use super::prelude::*;
@@ -24,12 +25,24 @@ pub struct Reference {
     draws: Bounded<100, 1_000_000>,
 }
 
+/// What it says of a target. Closed-form moments are not used, so that every target is treated alike.
+pub struct Known {
+    /// Rows of [`MOMENTS`], one per coordinate.
+    pub moments: Vec<Row>,
+    /// Draws of equal weight.
+    pub draws: Particles,
+    /// (Σ w)² / Σ w².
+    pub effective_sample_size: f64,
+    /// Shape k̂ of the tail of the weights: above 0.7 the spread of the scramblings says little of their error.
+    pub pareto_k: Option<f64>,
+}
+
 impl Reference {
-    /// Moments, a row per coordinate; draws of equal weight; and (Σ w)² / Σ w². Closed-form moments are not used, so that every target is treated alike.
+    /// Draws and weighs.
     ///
     /// # Errors
     /// A target that cannot be sampled so.
-    pub fn of(&self, target: &TargetSpecification) -> Result<(Vec<Row>, Particles, f64), CommandError> {
+    pub fn of(&self, target: &TargetSpecification) -> Result<Known, CommandError> {
         let names = target.coordinate_names();
         on_target!(target, target, D => self.sampled::<D>(target.as_ref(), names))
     }
@@ -38,7 +51,7 @@ impl Reference {
         &self,
         target: &dyn CatalogueTarget<D>,
         names: Vec<String>,
-    ) -> Result<(Vec<Row>, Particles, f64), CommandError> {
+    ) -> Result<Known, CommandError> {
         let options = ReferenceOptions {
             points: self.points.get(),
             scramblings: self.scramblings.get(),
@@ -56,9 +69,13 @@ impl Reference {
                 .with("standard_deviation", moments.covariance.0[axis][axis].sqrt())
                 .with("standard_deviation_standard_error", deviation_errors[axis])
         };
-        let axes = names.into_iter().take(D).enumerate().map(axis).collect();
         let draws = sample.draws().resampled(self.draws.get(), self.seed);
-        Ok((axes, Particles::new(&draws, None), known.effective_sample_size))
+        Ok(Known {
+            moments: names.into_iter().take(D).enumerate().map(axis).collect(),
+            draws: Particles::new(&draws, None),
+            effective_sample_size: known.effective_sample_size,
+            pareto_k: pareto_k(&sample.draws().weights),
+        })
     }
 }
 

@@ -85,3 +85,18 @@ fn options_of_a_survey() {
         |line| refused(line[0], &line[1..]),
     );
 }
+
+/// Without condensation the particles are the points of the pool that weigh anything.
+#[test]
+fn weights_are_kept_where_the_pool_is_not_condensed() {
+    let directory = tempfile::tempdir().unwrap();
+    let line = "sample --target banana --particles 60 --method ais --condense off --out x.csv --pool p.csv --diagnostics d.json";
+    let output = succeeds(directory.path(), line);
+    let table = |name: &str| numbers(&directory.path().join(name));
+    let ((header, particles), (_, mut pool)) = (table("x.csv"), table("p.csv"));
+    assert_eq!(header, "x1,x2,weight");
+    pool.retain(|row| row[2] > 0.0);
+    assert!(particles.len() > 1000 && particles.iter().zip(&pool).all(|(one, other)| one[..] == other[..3]));
+    assert_eq!(value(&output, "particles").unwrap(), particles.len().to_string());
+    assert_eq!(particles.len(), pool.len());
+}

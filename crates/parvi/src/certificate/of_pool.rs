@@ -7,16 +7,16 @@ use crate::Samples;
 use crate::extent::Extent;
 
 impl Certificate {
-    /// The verdict of the pool on particles that were condensed from it, unless there is a doubt without it.
+    /// The verdict of the pool on particles that were condensed from it, or on its points where it was made for so many particles, unless there is a doubt without it; with drift and kinetic
+    /// energy of the particles.
     pub(crate) fn of_pool<const D: usize>(
         pool: &Pool<D>,
         doubt: Option<Doubt>,
-        samples: &Samples<D>,
-        drift: f64,
-        kinetic_energy: f64,
+        (samples, particles): (&Samples<D>, usize),
+        (drift, kinetic_energy): (f64, f64),
     ) -> Self {
         let moments = moments(pool, samples);
-        let doubt_of_pool = || match pool.objection(samples.positions.len()) {
+        let doubt_of_pool = || match pool.objection(particles) {
             Some(Objection::HeavyTail(pareto_k)) => Some(Doubt::HeavyTail { pareto_k }),
             Some(Objection::Evidence(error)) => Some(Doubt::Evidence { error }),
             Some(Objection::Noise(variance)) => Some(Doubt::Noise { variance }),

@@ -9,5 +9,8 @@ with_defaults! {
         pub evaluations: Option<u64> = None,
         /// How many times as much is drawn in search of pieces that no proposal has met; ≥ 1.
         pub search_effort: f64 = 1.0,
+        /// Condense the pool to M particles of equal mass. Without, the points that weigh anything are the particles, as many as they are, with their weights: what M
+        /// points of equal mass cannot hold is kept, and nothing is spent on them.
+        pub condense: bool = true,
     }
 }

@@ -78,6 +78,36 @@ fn given_positions_are_a_first_proposal() {
     assert_eq!(error, SampleError::StartWithoutSpread);
 }
 
+/// The pool as it is: the same one, judged for as many particles, and nearer to the target than these.
+#[test]
+fn points_of_the_pool_are_weighted_particles_where_it_is_not_condensed() {
+    let target = Gaussian::<4>::standard();
+    let (frame, run) = (Frame::identity(), Run::new(500, 2));
+    let of = |condense: bool| {
+        let options = AisOptions {
+            condense,
+            ..AisOptions::default()
+        };
+        options.sample(&target, &frame, &run, &mut Silent).expect("particles")
+    };
+    let (condensed, points) = (of(true), of(false));
+    let pool = points.pool.as_ref().expect("a pool");
+    assert_eq!(condensed.pool.as_ref().expect("a pool").positions, pool.positions);
+    assert_eq!(condensed.log_evidence, points.log_evidence);
+    let weights = points.weights.as_ref().expect("weights");
+    assert!(weights.len() == points.positions.len() && weights.iter().all(|weight| *weight > 0.0));
+    assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    assert!(points.positions.len() <= pool.positions.len());
+    assert!(points.density_evaluations < condensed.density_evaluations);
+    assert_eq!(points.certificate.expect("a certificate").outcome, Outcome::Converged);
+    assert!(points.relative_energy_distance.is_none() && condensed.relative_energy_distance.is_some());
+    let energy = GaussianEnergy::<4>::standard().expect("a Gaussian");
+    let distance = |cloud: &Cloud<'_, 4>| energy.squared(cloud).expect("a distance");
+    let of_pool = distance(&Cloud::weighted(&points.positions, weights).expect("finite"));
+    let of_particles = distance(&Cloud::new(&condensed.positions).expect("finite"));
+    assert!(of_pool < 0.6 * of_particles, "{of_pool} {of_particles}");
+}
+
 #[test]
 fn masses_of_separate_modes_are_right_from_any_start() {
     fn check<const D: usize>(tolerance: f64) {

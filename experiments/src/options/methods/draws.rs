@@ -3,15 +3,18 @@
 use parvi::{AisOptions, Method};
 
 use super::MethodKind;
+use crate::options::Switch;
 
 /// Adaptive importance sampling.
 pub const AIS: MethodKind = MethodKind::of_draws(
     "ais",
-    "evaluations search-effort pool start start-law start-centre start-covariance start-mean start-sd start-draws",
+    "evaluations search-effort condense pool start start-law start-centre start-covariance start-mean start-sd start-draws",
     |options, _| {
+        let default = AisOptions::default();
         Ok(Method::Ais(AisOptions {
             evaluations: options.evaluations(),
-            search_effort: options.search_effort.unwrap_or(AisOptions::default().search_effort),
+            search_effort: options.search_effort.unwrap_or(default.search_effort),
+            condense: options.condense.map_or(default.condense, Switch::is_on),
         }))
     },
 );

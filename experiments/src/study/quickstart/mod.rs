@@ -56,7 +56,7 @@ impl Study for Quickstart {
 
     const KIND: &'static str = "quickstart";
     const COLUMNS: &'static str = "case status reason target dim method particles steps score_evaluations density_evaluations residual \
-         spacing active_nodes storage_bytes effective_sample_size wall_seconds";
+         spacing active_nodes storage_bytes effective_sample_size pareto_k wall_seconds";
     const REPORT: Report<Self> = report::report;
 
     fn cases(&self) -> Result<Vec<Case<Sampled>>, CommandError> {
@@ -82,11 +82,12 @@ impl Study for Quickstart {
         let file = |what: &str| tools.directory.raw_of(case.id(), what);
         let particles = if case.id() == REFERENCE {
             let (seconds, known) = timed(|| self.reference.of(&self.posterior.target));
-            let (moments, draws, size) = known?;
-            row_file::write(&file("moments"), MOMENTS, &moments)?;
-            row.set("effective_sample_size", size);
+            let known = known?;
+            row_file::write(&file("moments"), MOMENTS, &known.moments)?;
+            row.set("effective_sample_size", known.effective_sample_size);
+            row.set("pareto_k", known.pareto_k);
             row.set(SECONDS, seconds);
-            draws
+            known.draws
         } else if let Some(outcome) = row.note(case.work.sample(tools.observer))? {
             table_file::write(outcome.trace.iter(), &file("trace"))?;
             outcome.particles

@@ -52,7 +52,9 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
 }
 
 /// Why nothing is decided.
-const UNDECIDED: &str = ", since standard errors of the reference are above half of the bounds";
+const IMPRECISE: &str = ", since standard errors of the reference are above half of the bounds";
+const HEAVY_TAIL: &str = ", since the tail of the reference's weights is too heavy for its standard errors to be relied on (Pareto k̂ above 0.7)";
+const LARGEST_PARETO_K: f64 = 0.7;
 
 /// Whether the particles' moments keep their bounds, axis by axis.
 fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page) -> Page {
@@ -63,20 +65,23 @@ fn verdict(study: &Quickstart, axes: &Rows<'_>, rows: &Rows<'_>, mut page: Page)
     let kept = [mean <= bounds.mean, deviation <= bounds.standard_deviation];
     let [means, deviations] = kept.map(|kept| if kept { "within" } else { "beyond" });
     // What is judged by has to be known twice as well.
-    let decides = reference <= 0.5 * bounds.mean && of_deviation <= 0.5 * bounds.standard_deviation;
-    let verdict = match (kept, decides) {
-        ([true, true], _) => "pass",
-        (_, true) => "fail",
-        (_, false) => "undecided",
+    let is_precise = reference <= 0.5 * bounds.mean && of_deviation <= 0.5 * bounds.standard_deviation;
+    let of_reference = rows.with("case", REFERENCE);
+    let pareto_k = of_reference.first().and_then(|row| row.number("pareto_k"));
+    let (verdict, why) = match kept {
+        [true, true] => ("pass", ""),
+        _ if !is_precise => ("undecided", IMPRECISE),
+        _ if pareto_k.is_some_and(|k| k > LARGEST_PARETO_K) => ("undecided", HEAVY_TAIL),
+        _ => ("fail", ""),
     };
-    let why = if verdict == "undecided" { UNDECIDED } else { "" };
     let line = Line::from(axes.clone())
         .with("verdict", format!("{verdict}{why}"))
         .with("means", means)
         .with("deviations", deviations)
         .with("deviation bound", (100.0 * bounds.standard_deviation).to_string());
     let size = rows.cell("fixed 0 effective_sample_size where case = reference");
-    page.part_of("verdict", line.with("size", size));
+    let tail = rows.cell("fixed 2 pareto_k where case = reference");
+    page.part_of("verdict", line.with("size", size).with("tail", tail));
     page.with("largest_mean_error", format!("{mean:.6}"))
         .with("largest_sd_error", format!("{deviation:.6}"))
         .with("verdict", verdict)
