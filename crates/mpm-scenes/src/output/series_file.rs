@@ -89,6 +89,12 @@ fn read_rows(path: &Path, most: usize) -> Result<Series, SimulationError> {
     let mut lines = whole.lines();
     let header = lines.next().ok_or_else(|| refused(1, "no columns".to_owned()))?;
     let columns: Vec<String> = header.split(',').map(str::to_owned).collect();
+    if columns[0] != "time" {
+        return Err(refused(
+            1,
+            format!("the first column is `{}`: must be `time`", columns[0]),
+        ));
+    }
     let mut series = Series::new(columns.clone());
     for (line, text) in (2..).zip(lines.take(most)) {
         let cells: Vec<&str> = text.split(',').collect();

@@ -38,6 +38,10 @@ fn a_line_that_is_no_row_is_named() {
     );
     for (text, expected) in [
         ("", "line 1: no columns"),
+        (
+            "0.0,1.0\n1.0,2.0\n",
+            "line 1: the first column is `0.0`: must be `time`",
+        ),
         ("time,a\n0.0,1.0\n1.0,x\n2.0,3.0\n", "line 3: a = `x`: must be a number"),
         ("time,a\n0.0\n", "line 2: 1 values for 2 columns"),
         ("time,a\n0.0,1.0,2.0\n", "line 2: 3 values for 2 columns"),
