@@ -224,18 +224,18 @@ pub trait Basis<const D: usize>: Sync {
         sum
     }
 
-    /// Add w_ip times either scalar to the sums of the nodes of the stencil, which count as in [`for_each_node`](Self::for_each_node).
+    /// Add w_ip times every scalar to its sums of the nodes of the stencil, which count as in [`for_each_node`](Self::for_each_node).
     #[inline(always)]
-    fn deposit_scalars(
+    fn deposit_scalars<const N: usize>(
         &self,
         Member { particle, x, .. }: Member<Self::Cell, D>,
-        scalars: [f64; 2],
-        sums: [&mut [f64]; 2],
+        scalars: [f64; N],
+        mut sums: [&mut [f64]; N],
     ) {
-        let ([first, second], [sums, others]) = (scalars, sums);
         self.for_each_node(particle, x, |index, entry| {
-            sums[index] += entry.weight * first;
-            others[index] += entry.weight * second;
+            for (sums, scalar) in sums.iter_mut().zip(scalars) {
+                sums[index] += entry.weight * scalar;
+            }
         });
     }
 

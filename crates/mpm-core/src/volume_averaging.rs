@@ -25,9 +25,10 @@ impl VolumeAveraging {
     }
 }
 
-/// Volume around a node, at the beginning and at the end of what is averaged.
+/// Volume around a node: of the reference, at the beginning and at the end of what is averaged.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NodeVolume {
+    reference: f64,
     before: f64,
     after: f64,
 }
@@ -35,6 +36,7 @@ pub(crate) struct NodeVolume {
 impl Sum for NodeVolume {
     #[inline(always)]
     fn merge(&mut self, other: &Self) {
+        self.reference += other.reference;
         self.before += other.before;
         self.after += other.after;
     }
@@ -55,28 +57,44 @@ pub(crate) fn keep_deformations<const D: usize, S>(
     }
 }
 
-/// R_p = J'_p^{1 − θ}, J' the volume ratio before, θ = min(1, 100 ‖dev sym(ΔF)‖), ΔF = F F'⁻¹.
-fn references<const D: usize, M: Medium<D>>(
+/// What the average of a particle starts from.
+#[derive(Clone, Copy, Debug)]
+struct Start {
+    /// J', the volume ratio before.
+    ratio: f64,
+    /// θ = min(1, 100 ‖dev sym(ΔF)‖), ΔF = F F'⁻¹: the share in which J is drawn to its own average.
+    drawn: f64,
+}
+
+impl Start {
+    /// Where the ratios themselves are averaged.
+    const REST: Self = Self { ratio: 1.0, drawn: 0.0 };
+}
+
+/// One per particle where changes are averaged.
+fn starts<const D: usize, M: Medium<D>>(
     medium: &M,
     particles: &Particles<D, M::State>,
     before: &[Matrix<D>],
-) -> Vec<f64> {
-    let reference = |p: usize| {
+) -> Vec<Start> {
+    let start = |p: usize| {
         let ratio = medium.volume_ratio(&before[p], &particles.states[p]);
         let Some(inverse) = before[p].inverse() else {
-            return ratio;
+            return Start { ratio, drawn: 0.0 };
         };
         let change = particles.deformation_gradients[p] * inverse;
         let symmetric = (change + change.transpose()) * 0.5;
         let shear = symmetric - Matrix::IDENTITY * (symmetric.trace() / D as f64);
-        let relaxed = (PER_SHEAR * shear.frobenius_norm()).min(1.0);
-        ratio.powf(1.0 - relaxed)
+        let drawn = (PER_SHEAR * shear.frobenius_norm()).min(1.0);
+        Start { ratio, drawn }
     };
-    mpm_parallel::collect(before.len(), 1024, &reference)
+    mpm_parallel::collect(before.len(), 1024, &start)
 }
 
-/// F_p ← (J̄_p / J_p)^{1/D} F_p with J̄_p = R_p Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q R_q), then whatever the medium admits of it. R = 1 where the ratios are averaged (Zhao, Jiang & Choo 2023: the F̄
-/// method of de Souza Neto et al. 1996, with averages over the grid); for [`VolumeAveraging::Changes`], R = J'^{1 − θ} with J' from `before`: ln J then is ln J' + A (ln J − ln J') − θ (1 − A) ln J' to first order, A the average.
+/// F_p ← (J̄_p / J_p)^{1/D} F_p, then whatever the medium admits of it. J̄_p = Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q) where the ratios are averaged (Zhao, Jiang & Choo 2023: the F̄
+/// method of de Souza Neto et al. 1996, with averages over the grid). For [`VolumeAveraging::Changes`] that is Ĵ_p, and J̄_p = (J'_p Σ_i w_ip (Σ_q w_iq V⁰_q J_q / Σ_q w_iq V⁰_q J'_q))^{1 − θ} Ĵ_p^θ with J'
+/// from `before`: ln J then is ln J' + A (ln J − ln J') − θ (1 − A) ln J' to first order, A the average. θ is the particle's own and outside of A: were it inside, its differences from particle to particle would make
+/// ripples of a uniform J.
 ///
 /// J is the law's: for a plastic law in plane strain the elastic part of F alone does not have it.
 ///
@@ -91,11 +109,12 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     node_volumes: &mut NodeSums<NodeVolume>,
 ) {
     let particles = &*moving;
-    let references = references(medium, particles, before);
-    let reference = |p: usize| references.get(p).copied().unwrap_or(1.0);
+    let starts = starts(medium, particles, before);
+    let start = |p: usize| starts.get(p).copied().unwrap_or(Start::REST);
+    let draws = !starts.is_empty();
     node_volumes.scatter_cells(
         basis,
-        move |cell, particles_of_cell, stencil, (collected, volumes): &mut (B::Cell, [Vec<f64>; 2])| {
+        move |cell, particles_of_cell, stencil, (collected, volumes): &mut (B::Cell, [Vec<f64>; 3])| {
             basis.enter(cell, collected);
             for volumes in volumes.iter_mut() {
                 volumes.clear();
@@ -104,16 +123,18 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
             for p in particles_of_cell {
                 let volume = particles.reference_volumes[p];
                 let ratio = medium.volume_ratio(&particles.deformation_gradients[p], &particles.states[p]);
-                let sums = volumes.each_mut().map(Vec::as_mut_slice);
                 let member = Member {
                     cell: collected,
                     particle: p,
                     x: &particles.positions[p],
                 };
-                basis.deposit_scalars(member, [volume * reference(p), volume * ratio], sums);
+                let sums = volumes.each_mut().map(Vec::as_mut_slice);
+                basis.deposit_scalars(member, [volume, volume * start(p).ratio, volume * ratio], sums);
             }
-            let [before, after] = &*volumes;
-            stencil.for_each_with(before.iter().zip(after), |node, (before, after)| {
+            let [reference, before, after] = &*volumes;
+            let sums = reference.iter().zip(before).zip(after);
+            stencil.for_each_with(sums, |node, ((reference, before), after)| {
+                node.reference += reference;
                 node.before += before;
                 node.after += after;
             });
@@ -123,21 +144,32 @@ pub(crate) fn average_volume_ratios<const D: usize, B: Basis<D>, M: Medium<D>>(
     gather_cells(
         basis,
         Moving::of(moving),
-        move |data: &mut Moving<D, M::State>, work, first, (collected, ratios): &mut (B::Cell, Ratios)| {
+        move |data: &mut Moving<D, M::State>,
+              work,
+              first,
+              (collected, changes, ratios): &mut (B::Cell, Ratios, Ratios)| {
             basis.enter(work.cell, collected);
-            ratios.collect(work.nodes, nodes);
+            changes.collect(work.nodes, nodes, |node| [node.before, node.after]);
+            if draws {
+                ratios.collect(work.nodes, nodes, |node| [node.reference, node.after]);
+            }
             for p in work.particles {
                 let k = p - first;
                 let (deformation, state) = (&mut data.deformation_gradients[k], &mut data.states[k]);
                 let own = medium.volume_ratio(deformation, state);
-                let member = Member {
-                    cell: collected,
+                let position = data.positions[k];
+                let member = || Member {
+                    cell: &*collected,
                     particle: p,
-                    x: &data.positions[k],
+                    x: &position,
                 };
-                let change = own / reference(p);
-                let average = basis.interpolate_scalar(member, ratios.seen_by(change));
-                let ratio = average / change;
+                let Start { ratio: before, drawn } = start(p);
+                let change = own / before;
+                let mut ratio = basis.interpolate_scalar(member(), changes.seen_by(change)) / change;
+                if drawn > 0.0 {
+                    let average = basis.interpolate_scalar(member(), ratios.seen_by(own));
+                    ratio = ratio.powf(1.0 - drawn) * (average / own).powf(drawn);
+                }
                 let trial = if ratio > 0.0 && ratio < f64::INFINITY {
                     *deformation * ratio.powf(1.0 / D as f64)
                 } else {
@@ -159,7 +191,7 @@ struct Ratios {
 
 impl Ratios {
     #[inline(always)]
-    fn collect(&mut self, numbers: &[u32], nodes: &[NodeVolume]) {
+    fn collect(&mut self, numbers: &[u32], nodes: &[NodeVolume], of: impl Fn(&NodeVolume) -> [f64; 2]) {
         self.values.clear();
         self.unknown.clear();
         for (place, &number) in numbers.iter().enumerate() {
@@ -168,10 +200,11 @@ impl Ratios {
             } else {
                 nodes[number as usize]
             };
-            if node.before <= 0.0 {
+            let [before, after] = of(&node);
+            if before <= 0.0 {
                 self.unknown.push(place);
             }
-            self.values.push(node.after / node.before);
+            self.values.push(after / before);
         }
     }
 

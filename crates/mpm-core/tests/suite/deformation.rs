@@ -86,31 +86,36 @@ fn averaged_volume_ratios_are_those_of_the_formula() {
         Quadratic.value(x[0] / 0.2 - f64::from(i)) * Quadratic.value(x[1] / 0.2 - f64::from(j))
     };
     for averaging in [VolumeAveraging::Ratios, VolumeAveraging::Changes] {
-        let was = |q: usize| {
+        let changes = averaging == VolumeAveraging::Changes;
+        let was = |q: usize| if changes { before[q].determinant() } else { 1.0 };
+        let drawn = |q: usize| {
             let change = trial[q] * before[q].inverse().unwrap();
             let symmetric = (change + change.transpose()) * 0.5;
-            let shear = (symmetric - Matrix::IDENTITY * (0.5 * symmetric.trace())).frobenius_norm();
-            match averaging {
-                VolumeAveraging::Changes => before[q].determinant().powf(1.0 - (100.0 * shear).min(1.0)),
-                _ => 1.0,
+            let shear = symmetric - Matrix::IDENTITY * (0.5 * symmetric.trace());
+            if changes {
+                (100.0 * shear.frobenius_norm()).min(1.0)
+            } else {
+                0.0
             }
         };
         let result = strained(averaging).1;
         for p in 0..COUNT {
-            let mut mean = 0.0;
+            let (mut change, mut mean) = (0.0, 0.0);
             for i in -2..8 {
                 for j in -2..8 {
                     let sum =
                         |of: &dyn Fn(usize) -> f64| (0..COUNT).map(|q| weight(&start[q], i, j) * of(q)).sum::<f64>();
-                    let (old, new) = (sum(&was), sum(&|q| trial[q].determinant()));
-                    if old > 0.0 {
-                        mean += weight(&start[p], i, j) * new / old;
+                    let (volume, old, new) = (sum(&|_| 1.0), sum(&was), sum(&|q| trial[q].determinant()));
+                    if volume > 0.0 {
+                        change += weight(&start[p], i, j) * new / old;
+                        mean += weight(&start[p], i, j) * new / volume;
                     }
                 }
             }
-            let expected = trial[p] * (was(p) * mean / trial[p].determinant()).sqrt();
+            let averaged = (was(p) * change).powf(1.0 - drawn(p)) * mean.powf(drawn(p));
+            let expected = trial[p] * (averaged / trial[p].determinant()).sqrt();
             assert!((result[p] - expected).frobenius_norm() < 1e-13, "{averaging:?}");
-            assert!((result[p].determinant() - was(p) * mean).abs() < 1e-13, "{averaging:?}");
+            assert!((result[p].determinant() - averaged).abs() < 1e-13, "{averaging:?}");
         }
     }
 }

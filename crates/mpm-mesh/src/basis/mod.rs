@@ -384,7 +384,12 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
     }
 
     #[inline(always)]
-    fn deposit_scalars(&self, member: Member<CellRing<D>, D>, scalars: [f64; 2], sums: [&mut [f64]; 2]) {
+    fn deposit_scalars<const N: usize>(
+        &self,
+        member: Member<CellRing<D>, D>,
+        scalars: [f64; N],
+        sums: [&mut [f64]; N],
+    ) {
         self.deposit_scalars_in_lanes(member, scalars, sums);
     }
 

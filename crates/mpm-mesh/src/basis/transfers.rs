@@ -195,16 +195,16 @@ impl<const D: usize> MeshBasis<D> {
     }
 
     #[inline(always)]
-    pub(super) fn deposit_scalars_in_lanes(
+    pub(super) fn deposit_scalars_in_lanes<const N: usize>(
         &self,
         member: Member<CellRing<D>, D>,
-        scalars: [f64; 2],
-        sums: [&mut [f64]; 2],
+        scalars: [f64; N],
+        sums: [&mut [f64]; N],
     ) {
         let scalars = scalars.map(Lanes::splat);
-        let [mut first, mut second] = sums.map(|sums| sums.as_chunks_mut().0.iter_mut());
+        let mut sums = sums.map(|sums| sums.as_chunks_mut().0.iter_mut());
         self.for_each_weight_group(member, |weight| {
-            for (sums, scalar) in [&mut first, &mut second].into_iter().zip(scalars) {
+            for (sums, scalar) in sums.iter_mut().zip(scalars) {
                 if let Some(sums) = sums.next() {
                     *sums = weight.mul_add(scalar, Lanes::new(*sums)).to_array();
                 }
