@@ -24,11 +24,6 @@ impl AisOptions {
             rounds: Some(0),
             ..MpmOptions::default()
         };
-        let sample = if self.condense {
-            surveyed::sample_as_it_is
-        } else {
-            surveyed::sample_points
-        };
-        sample(&options, &mut { task }, &mut Journal::default())
+        surveyed::sample_as_it_is(&options, self.condense, &mut { task }, &mut Journal::default())
     }
 }

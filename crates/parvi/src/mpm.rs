@@ -35,7 +35,7 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
         return free_body::sample(options, task, None, u64::MAX, &mut journal);
     }
     if options.rounds == Some(0) {
-        return surveyed::sample_as_it_is(options, &mut task, &mut journal);
+        return surveyed::sample_as_it_is(options, true, &mut task, &mut journal);
     }
     let (spent, nowhere) = match surveyed::sample(options, &mut task, &mut journal, first_round) {
         // A body may find what is too far for a survey.

@@ -67,25 +67,18 @@ pub(crate) fn sample<const D: usize>(
     }
 }
 
-/// The same of any pool: who asks for the pool alone has it as it is.
+/// The same of any pool: who asks for the pool alone has it as it is, condensed or not.
 pub(crate) fn sample_as_it_is<const D: usize>(
     options: &MpmOptions,
+    condense: bool,
     task: &mut Task<'_, D>,
     journal: &mut Journal,
 ) -> Result<Samples<D>, SampleError> {
     let pool = surveyed(options, task, journal)?;
     let tails = Tails::of(task.target, task.frame, &pool);
-    condensed(options, task, journal, pool, tails)
-}
-
-/// The points of a pool that weigh anything, with their weights, as particles.
-pub(crate) fn sample_points<const D: usize>(
-    options: &MpmOptions,
-    task: &mut Task<'_, D>,
-    journal: &mut Journal,
-) -> Result<Samples<D>, SampleError> {
-    let pool = surveyed(options, task, journal)?;
-    let tails = Tails::of(task.target, task.frame, &pool);
+    if condense {
+        return condensed(options, task, journal, pool, tails);
+    }
     let checks = Checks::of(task, &pool, tails);
     let pairs = pool.positions.iter().zip(&pool.weights);
     let (positions, weights) = pairs.filter(|(_, weight)| **weight > 0.0).unzip();

@@ -18,6 +18,13 @@ fn the_pool_has_rows_with_weights() {
     let log_evidence: f64 = value(&output, "log_evidence").unwrap().parse().unwrap();
     assert!(log_evidence.abs() < 0.3, "{log_evidence}");
 
+    // Without condensation the particles are the points that weigh anything.
+    succeeds(directory.path(), &format!("{line} --condense off"));
+    let (header, points) = numbers(&directory.path().join("x.csv"));
+    assert_eq!(header, "x1,x2,weight");
+    let weighing = rows.iter().filter(|row| row[2] > 0.0).map(|row| &row[..3]);
+    assert!(points.iter().map(Vec::as_slice).eq(weighing));
+
     let array_line = line.replace("p.csv", "p.npy");
     succeeds(directory.path(), &array_line);
     let bytes = std::fs::read(directory.path().join("p.npy")).unwrap();
@@ -84,19 +91,4 @@ fn options_of_a_survey() {
         "#,
         |line| refused(line[0], &line[1..]),
     );
-}
-
-/// Without condensation the particles are the points of the pool that weigh anything.
-#[test]
-fn weights_are_kept_where_the_pool_is_not_condensed() {
-    let directory = tempfile::tempdir().unwrap();
-    let line = "sample --target banana --particles 60 --method ais --condense off --out x.csv --pool p.csv --diagnostics d.json";
-    let output = succeeds(directory.path(), line);
-    let table = |name: &str| numbers(&directory.path().join(name));
-    let ((header, particles), (_, mut pool)) = (table("x.csv"), table("p.csv"));
-    assert_eq!(header, "x1,x2,weight");
-    pool.retain(|row| row[2] > 0.0);
-    assert!(particles.len() > 1000 && particles.iter().zip(&pool).all(|(one, other)| one[..] == other[..3]));
-    assert_eq!(value(&output, "particles").unwrap(), particles.len().to_string());
-    assert_eq!(particles.len(), pool.len());
 }
