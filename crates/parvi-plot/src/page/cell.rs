@@ -124,14 +124,14 @@ pub fn number_of(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return MISSING.to_owned();
     }
-    let size = value.abs();
     if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e5).contains(&size) {
-        let last = digits as f64 - 1.0;
-        let decimals = (last - size.log10().floor()).clamp(0.0, last + 4.0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.*e}", digits - 1)
+        return "0".to_owned();
+    }
+    // The power of ten after rounding: 9.9996 has one more digit before the point than 9.9994.
+    let scientific = format!("{value:.*e}", digits - 1);
+    let power = scientific.split('e').nth(1).and_then(|power| power.parse::<i32>().ok());
+    match power.filter(|power| (-3..5).contains(power)) {
+        Some(power) => format!("{value:.*}", (digits as i32 - 1 - power).max(0) as usize),
+        None => scientific,
     }
 }

@@ -171,6 +171,23 @@ fn names_that_markdown_would_read_stand_as_they_are() {
 }
 
 #[test]
+fn numbers_keep_their_digits_when_they_round_up() {
+    let cases = [
+        (9.994, "9.99"),
+        (9.9996, "10.0"),
+        (-0.99999, "-1.00"),
+        (99_999.6, "1.00e5"),
+        (9.996e-4, "0.00100"),
+    ];
+    for (value, text) in cases
+        .into_iter()
+        .chain([(1e-4, "1.00e-4"), (12_345.0, "12345"), (0.0, "0")])
+    {
+        assert_eq!(number_of(value, 3), text);
+    }
+}
+
+#[test]
 fn one_is_counted_as_one_and_digits_tell_values_apart() {
     let page = Page::of("# A\n\n{seeds} seeds, {runs} runs.\n", &[("seeds", &1), ("runs", &12)]);
     assert_eq!(page.text, "# A\n\n1 seed, 12 runs.\n");
