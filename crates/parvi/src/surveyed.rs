@@ -84,7 +84,8 @@ pub(crate) fn sample_as_it_is<const D: usize>(
     let (positions, weights) = pairs.filter(|(_, weight)| **weight > 0.0).unzip();
     let mut points = Driven::at_rest(Vec::new(), positions);
     points.samples.weights = Some(weights);
-    Ok(judged(options, task, pool, &checks, Polished::still(points, 0)))
+    let count = weighed_for(task);
+    Ok(judged(options, pool, count, &checks, Polished::still(points, 0)))
 }
 
 /// Particles from a pool, and what it says of them.
@@ -107,7 +108,7 @@ fn condensed<const D: usize>(
     let samples = &mut polished.best.samples;
     samples.relative_energy_distance = (!options.weighted).then(|| polish.relative_distance(&samples.positions));
     samples.weights = options.weighted.then(|| pool.measure.shares(&samples.positions));
-    Ok(judged(options, task, pool, &checks, polished))
+    Ok(judged(options, pool, task.run.particles, &checks, polished))
 }
 
 /// What is seen of a target and its pool before there are particles.
@@ -139,11 +140,11 @@ impl Checks {
     }
 }
 
-/// Particles with what their pool says of them.
+/// Particles with what their pool says of so many.
 fn judged<const D: usize>(
     options: &MpmOptions,
-    task: &Task<'_, D>,
     pool: Pool<D>,
+    particles: usize,
     checks: &Checks,
     polished: Polished<D>,
 ) -> Samples<D> {
@@ -160,7 +161,7 @@ fn judged<const D: usize>(
     let rest = (best.drift, best.kinetic_energy);
     samples.certificate = options
         .certificate
-        .then(|| Certificate::of_pool(&pool, checks.doubt.clone(), (&samples, task.run.particles), rest));
+        .then(|| Certificate::of_pool(&pool, checks.doubt.clone(), (&samples, particles), rest));
     samples.log_evidence = Some(pool.log_evidence);
     // Where log p is no number there may be as much mass as elsewhere.
     samples.log_evidence_error = Some(pool.log_evidence_error.hypot(pool.verdict.undefined));
