@@ -15,7 +15,8 @@ impl Certificate {
         (samples, particles): (&Samples<D>, usize),
         (drift, kinetic_energy): (f64, f64),
     ) -> Self {
-        let moments = moments(pool, samples);
+        let rate = (particles as f64).sqrt();
+        let moments = moments(pool, samples, rate);
         let doubt_of_pool = || match pool.objection(particles) {
             Some(Objection::HeavyTail(pareto_k)) => Some(Doubt::HeavyTail { pareto_k }),
             Some(Objection::Evidence(error)) => Some(Doubt::Evidence { error }),
@@ -25,7 +26,7 @@ impl Certificate {
             Some(Objection::Inconsistent(ratio)) => Some(Doubt::Inconsistent { ratio }),
             Some(Objection::Searching(quiet)) => Some(Doubt::Searching { quiet }),
             // Two standard errors of the pool.
-            None => doubt_of_moments(&moments, 2.0 / (samples.positions.len() as f64).sqrt()),
+            None => doubt_of_moments(&moments, 2.0 / rate),
         };
         Self {
             outcome: doubt
@@ -39,10 +40,9 @@ impl Certificate {
     }
 }
 
-/// The particles' moments beside those of the pool.
-fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>) -> Vec<MomentEstimate> {
+/// The particles' moments beside those of the pool, what these leave unexplained times `rate`.
+fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> Vec<MomentEstimate> {
     let own = Extent::of_weighted(&samples.positions, samples.weights.as_deref());
-    let rate = (samples.positions.len() as f64).sqrt();
     let of_axis = |a: usize| {
         // In units of a power of two, which rounds nothing: squares of squares of large coordinates overflow.
         let unit = power_of_two(own.deviation[a]);
