@@ -122,10 +122,12 @@ fn scrambled_bits(bits: u64, key: u64) -> u64 {
     let mut flips = hash(NESTED_LEVELS) >> NESTED_LEVELS;
     for top in (0..NESTED_LEVELS).step_by(LEVELS_PER_HASH as usize) {
         let nodes = hash(top);
-        // The root is the first node, the children of the n-th are the 2n-th and the one after it.
-        let leaf = 1 << LEVELS_PER_HASH | (bits >> (64 - LEVELS_PER_HASH - top)) & ((1 << LEVELS_PER_HASH) - 1);
-        let flip = |flips: u64, level: u32| flips << 1 | nodes >> (leaf >> (LEVELS_PER_HASH - level)) & 1;
-        flips |= (0..LEVELS_PER_HASH).fold(0, flip) << (64 - LEVELS_PER_HASH - top);
+        let path = bits >> (64 - LEVELS_PER_HASH - top);
+        for level in 0..LEVELS_PER_HASH {
+            // The root is the first node, the children of the n-th are the 2n-th and the one after it.
+            let node = 1 << level | (path >> (LEVELS_PER_HASH - level)) & ((1 << level) - 1);
+            flips |= (nodes >> node & 1) << (63 - top - level);
+        }
     }
     bits ^ flips
 }
