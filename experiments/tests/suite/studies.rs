@@ -23,6 +23,20 @@ fn quickstart() {
     let (root, output) = run_study(&text.replace("mean = 0.02", "mean = 1e-9"));
     assert_eq!(value(&output, "verdict").as_deref(), Some("undecided"));
     assert!(assert_report(root.path(), 4).contains("undecided, since standard errors of the reference"));
+    // Nor one whose few heavy weights leave its scramblings near each other by chance.
+    let bent = text
+        .replace(
+            "{ name = \"wells\", dim = 5 }",
+            "{ name = \"banana\", parameters = { curvature = 1.0 } }",
+        )
+        .replace("points = 16384", "points = 65536")
+        .replace(
+            "mean = 0.02\nstandard-deviation = 0.03",
+            "mean = 0.02\nstandard-deviation = 0.05",
+        );
+    let (root, output) = run_study(&bent);
+    assert_eq!(value(&output, "verdict").as_deref(), Some("undecided"));
+    assert!(assert_report(root.path(), 4).contains("undecided, since the tail of the reference's weights"));
 }
 
 #[test]
