@@ -89,11 +89,8 @@ fn read_rows(path: &Path, most: usize) -> Result<Series, SimulationError> {
     let mut lines = whole.lines();
     let header = lines.next().ok_or_else(|| refused(1, "no columns".to_owned()))?;
     let columns: Vec<String> = header.split(',').map(str::to_owned).collect();
-    if columns[0] != "time" {
-        return Err(refused(
-            1,
-            format!("the first column is `{}`: must be `time`", columns[0]),
-        ));
+    if let Some(first) = columns.first().filter(|first| *first != "time") {
+        return Err(refused(1, format!("the first column is `{first}`: must be `time`")));
     }
     let mut series = Series::new(columns.clone());
     for (line, text) in (2..).zip(lines.take(most)) {
