@@ -6,6 +6,7 @@ mod ascent;
 mod cloud;
 mod compiled;
 mod condense;
+mod controlled;
 mod curvature;
 mod density;
 mod energy;

@@ -9,7 +9,7 @@ use crate::mpm_body::Motion;
 use crate::start::positive;
 use crate::surveyed::Spent;
 use crate::task::Task;
-use crate::{MpmOptions, SampleError, Samples, ScoreLocation, free_body, surveyed};
+use crate::{Condensation, MpmOptions, SampleError, Samples, ScoreLocation, free_body, surveyed};
 
 /// [`MpmOptions::sample`].
 pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>) -> Result<Samples<D>, SampleError> {
@@ -35,7 +35,7 @@ pub(crate) fn sample<const D: usize>(options: &MpmOptions, mut task: Task<'_, D>
         return free_body::sample(options, task, None, u64::MAX, &mut journal);
     }
     if options.rounds == Some(0) {
-        return surveyed::sample_as_it_is(options, true, &mut task, &mut journal);
+        return surveyed::sample_as_it_is(options, Condensation::On, &mut task, &mut journal);
     }
     let (spent, nowhere) = match surveyed::sample(options, &mut task, &mut journal, first_round) {
         // A body may find what is too far for a survey.

@@ -18,7 +18,7 @@ use crate::score_check::ScoreCheck;
 use crate::start::Stream;
 use crate::tails::Tails;
 use crate::task::Task;
-use crate::{MpmOptions, Progress, Run, SampleError, Samples, Start, defaults};
+use crate::{Condensation, MpmOptions, Progress, Run, SampleError, Samples, Start, defaults};
 
 /// A pool whose energy distance is known no better than that of so many times fewer independent draws than particles is none.
 const WORTHLESS: f64 = 30.0;
@@ -70,18 +70,21 @@ pub(crate) fn sample<const D: usize>(
 /// The same of any pool: who asks for the pool alone has it as it is, condensed or not.
 pub(crate) fn sample_as_it_is<const D: usize>(
     options: &MpmOptions,
-    condense: bool,
+    condense: Condensation,
     task: &mut Task<'_, D>,
     journal: &mut Journal,
 ) -> Result<Samples<D>, SampleError> {
     let pool = surveyed(options, task, journal)?;
     let tails = Tails::of(task.target, task.frame, &pool);
-    if condense {
-        return condensed(options, task, journal, pool, tails);
-    }
+    let (positions, weights) = match condense {
+        Condensation::On => return condensed(options, task, journal, pool, tails),
+        Condensation::Off => {
+            let pairs = pool.positions.iter().zip(&pool.weights);
+            pairs.filter(|(_, weight)| **weight > 0.0).unzip()
+        }
+        Condensation::Controlled => pool.controlled(),
+    };
     let checks = Checks::of(task, &pool, tails);
-    let pairs = pool.positions.iter().zip(&pool.weights);
-    let (positions, weights) = pairs.filter(|(_, weight)| **weight > 0.0).unzip();
     let mut points = Driven::at_rest(Vec::new(), positions);
     points.samples.weights = Some(weights);
     let count = weighed_for(task);

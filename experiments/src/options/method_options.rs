@@ -5,8 +5,8 @@ use parvi::{Method, Start};
 use serde::Deserialize;
 
 use super::{
-    AlphaSchedule, Basis, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName, MonitorName,
-    NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
+    AlphaSchedule, Basis, CondensationName, Correction, Draws, EvaluationCount, FrameName, Limit, Material, MethodName,
+    MonitorName, NonFinite, OptionError, ParticleCount, RoundCount, Score, StepCount, Switch, Transfer, WarmUp,
 };
 use crate::plots::results::Value;
 
@@ -97,8 +97,8 @@ options! {
     evaluations: EvaluationCount = "N",
     /// How many times as much is drawn in search of pieces that no proposal has met, at least 1
     search_effort: f64 = "FACTOR" in RATIO,
-    /// Condense the pool to particles of equal mass; off: the points of the pool are the particles, with their weights [default: on]
-    condense: Switch,
+    /// What particles are made of the pool [default: on]
+    condense: CondensationName,
     /// Move the basis' origin and draw its spacing every step
     shifts: Switch,
     /// Turn the lattice at random every step

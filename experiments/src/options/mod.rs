@@ -28,7 +28,8 @@ pub use methods::{MethodName, is_among, owners};
 pub use option_error::OptionError;
 pub(crate) use option_values::words;
 pub use option_values::{
-    AlphaSchedule, Basis, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score, Switch, Transfer,
+    AlphaSchedule, Basis, CondensationName, Correction, Draws, FrameName, MonitorName, NonFinite, PoolChoice, Score,
+    Switch, Transfer,
 };
 pub use seed::seed;
 pub use target_specification::{TargetParameters, TargetSpecification};

@@ -1,6 +1,6 @@
 //! Options whose values are words.
 
-use parvi::{BasisChoice, MomentCorrection, Monitor, NonFiniteScores, ScoreLocation, StartDraws};
+use parvi::{BasisChoice, Condensation, MomentCorrection, Monitor, NonFiniteScores, ScoreLocation, StartDraws};
 
 /// Choices by the words that are typed; what `--help` says of a word is its documentation.
 macro_rules! words {
@@ -51,6 +51,16 @@ words! {
         On,
         /// Off
         Off,
+    }
+
+    /// What particles are made of a weighted pool.
+    CondensationName {
+        /// Particles of equal mass
+        On,
+        /// The points of the pool, with their weights
+        Off,
+        /// The points of the pool and free draws of its proposals, with weights that are less noisy
+        Controlled,
     }
 
     /// What the last move puts right.
@@ -196,6 +206,7 @@ macro_rules! as_in_the_library {
     };
 }
 
+as_in_the_library!(CondensationName => Condensation { On, Off, Controlled });
 as_in_the_library!(Correction => MomentCorrection { Off, Mean, Affine });
 as_in_the_library!(Draws => StartDraws { QuasiRandom, Independent });
 as_in_the_library!(Score => ScoreLocation { Particles, Nodes, Cached });

@@ -25,6 +25,14 @@ fn the_pool_has_rows_with_weights() {
     let weighing = rows.iter().filter(|row| row[2] > 0.0).map(|row| &row[..3]);
     assert!(points.iter().map(Vec::as_slice).eq(weighing));
 
+    // Or these together with free draws.
+    succeeds(directory.path(), &format!("{line} --condense controlled"));
+    let (header, controlled) = numbers(&directory.path().join("x.csv"));
+    assert_eq!(header, "x1,x2,weight");
+    let sum: f64 = controlled.iter().map(|row| row[2]).sum();
+    assert!(controlled.len() > points.len() && (sum - 1.0).abs() < 1e-9);
+    assert!(controlled.iter().all(|row| row[2] > 0.0));
+
     let array_line = line.replace("p.csv", "p.npy");
     succeeds(directory.path(), &array_line);
     let bytes = std::fs::read(directory.path().join("p.npy")).unwrap();

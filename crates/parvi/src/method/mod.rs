@@ -15,7 +15,7 @@ mod svgd_options;
 mod watch;
 mod with_defaults;
 
-pub use ais_options::AisOptions;
+pub use ais_options::{AisOptions, Condensation};
 pub use annealing::Annealing;
 pub use mesh_options::{MeshOptions, OnMesh};
 pub use mpm_options::{MomentCorrection, MpmOptions};

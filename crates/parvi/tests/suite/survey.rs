@@ -2,7 +2,8 @@
 
 use mpm_tensor::Matrix;
 use parvi::{
-    AisOptions, GivenParticles, Method, MpmOptions, Outcome, Run, SampleError, Samples, Silent, Start, sample,
+    AisOptions, Condensation, GivenParticles, Method, MpmOptions, Outcome, Run, SampleError, Samples, Silent, Start,
+    sample,
 };
 use parvi_metrics::{Cloud, GaussianEnergy, ModeMasses};
 use parvi_targets::{Banana, CatalogueTarget, Frame, Gaussian, GaussianMixture, StudentT, Target};
@@ -83,14 +84,15 @@ fn given_positions_are_a_first_proposal() {
 fn points_of_the_pool_are_weighted_particles_where_it_is_not_condensed() {
     let target = Gaussian::<4>::standard();
     let (frame, run) = (Frame::identity(), Run::new(500, 2));
-    let of = |condense: bool| {
+    let of = |condense: Condensation| {
         let options = AisOptions {
             condense,
             ..AisOptions::default()
         };
         options.sample(&target, &frame, &run, &mut Silent).expect("particles")
     };
-    let (condensed, points) = (of(true), of(false));
+    let (condensed, points) = (of(Condensation::On), of(Condensation::Off));
+    let controlled = of(Condensation::Controlled);
     let pool = points.pool.as_ref().expect("a pool");
     assert_eq!(condensed.pool.as_ref().expect("a pool").positions, pool.positions);
     assert_eq!(condensed.log_evidence, points.log_evidence);
@@ -106,6 +108,11 @@ fn points_of_the_pool_are_weighted_particles_where_it_is_not_condensed() {
     let of_pool = distance(&Cloud::weighted(&points.positions, weights).expect("finite"));
     let of_particles = distance(&Cloud::new(&condensed.positions).expect("finite"));
     assert!(of_pool < 0.6 * of_particles, "{of_pool} {of_particles}");
+    let weights = controlled.weights.as_ref().expect("weights");
+    assert!(weights.iter().all(|weight| *weight > 0.0) && (weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    let of_controlled = distance(&Cloud::weighted(&controlled.positions, weights).expect("finite"));
+    assert!(of_controlled < 0.5 * of_pool, "{of_controlled} {of_pool}");
+    assert_eq!(controlled.density_evaluations, points.density_evaluations);
 }
 
 #[test]

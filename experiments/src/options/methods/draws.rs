@@ -3,7 +3,6 @@
 use parvi::{AisOptions, Method};
 
 use super::MethodKind;
-use crate::options::Switch;
 
 /// Adaptive importance sampling.
 pub const AIS: MethodKind = MethodKind::of_draws(
@@ -14,7 +13,7 @@ pub const AIS: MethodKind = MethodKind::of_draws(
         Ok(Method::Ais(AisOptions {
             evaluations: options.evaluations(),
             search_effort: options.search_effort.unwrap_or(default.search_effort),
-            condense: options.condense.map_or(default.condense, Switch::is_on),
+            condense: options.condense.map_or(default.condense, Into::into),
         }))
     },
 );
