@@ -41,6 +41,7 @@ pub fn run<const D: usize>(
     }
     // Not after minutes of choices on training runs.
     experiment.check_sample_counts::<D>()?;
+    experiment.check_same_body::<D>()?;
     experiment.occupy(directory)?;
     experiment.check_scene_of(directory)?;
     let document = experiment.read_run_scene()?;
