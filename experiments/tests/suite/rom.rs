@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use mpm_rom::experiment::Experiment;
+use mpm_rom::full_order::{Recording, SceneDocument};
 
 use crate::support::{assert_refused, files, parvi, stderr, stdout, succeeds, value};
 
@@ -145,4 +146,16 @@ fn random_pokes_are_none_of_those_that_their_network_is_tested_on() {
     let (pokes, random) = (read("poke.toml"), read("poke_random.toml"));
     assert_eq!(pokes.training, random.training);
     assert!(random.cases.test.iter().all(|angle| !pokes.cases.test.contains(angle)));
+}
+
+/// The points around the moved ones are stretched most when they are let go, after 36 frames.
+#[test]
+fn no_time_step_of_a_poke_is_cut() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("rom");
+    let pokes = Experiment::read(&directory.join("poke.toml")).unwrap();
+    let document = SceneDocument::read(&pokes.scene_file()).unwrap();
+    let mut scene = pokes.scene_of(&document, &pokes.cases.train[0]).unwrap();
+    scene.time.end = 37.0 * scene.output.interval;
+    let recording = Recording::<3>::of(&scene, &pokes.parameters, Some(1)).unwrap();
+    recording.run_in_even_steps(&scene).unwrap();
 }

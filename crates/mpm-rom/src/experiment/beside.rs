@@ -31,6 +31,13 @@ pub struct Choice {
     pub step_factor: u64,
 }
 
+impl Choice {
+    /// Whether its sample points are chosen on training runs.
+    pub(super) fn is_made_on_training(&self) -> bool {
+        self.samples.count().is_some() && self.chosen.needs_training()
+    }
+}
+
 /// A full-order run to compare with.
 pub(super) struct Full<const D: usize> {
     pub case: usize,
@@ -100,26 +107,8 @@ pub(super) fn beside<const D: usize>(
     let end = frames_of(&full.snapshots).last().map_or(0.0, |frame| frame.time);
     let all_steps = (end / reduced.body().time_step).round();
     Ok(ReducedRow {
-        case: full.case,
-        parameters: full
-            .snapshots
-            .runs()
-            .iter()
-            .flat_map(|run| run.parameters.clone())
-            .collect(),
-        manifold: choice.manifold.name(),
-        variant: String::new(),
         samples: reduced.samples().len(),
-        asked: choice.samples,
-        chosen: match choice.samples {
-            SampleCount::All(_) => "all",
-            SampleCount::Drawn(_) => choice.chosen.name(),
-        },
-        quadrature: choice.quadrature.name(),
-        update: choice.update.name(),
-        step_factor: choice.step_factor,
         error: own.percent(),
-        reconstruction_error: None,
         super_resolved: finer.map(|(comparison, finer)| SuperResolved {
             points: finer.snapshots.points(),
             error: comparison.percent(),
@@ -136,7 +125,42 @@ pub(super) fn beside<const D: usize>(
         limited: report.limited,
         outcome,
         frames: rows,
+        ..not_begun(full, choice, 0)
     })
+}
+
+/// The row of a run without any step, of a body of so many points.
+pub(super) fn not_begun<const D: usize>(full: &Full<D>, choice: &Choice, points: usize) -> ReducedRow {
+    let runs = full.snapshots.runs().iter();
+    ReducedRow {
+        case: full.case,
+        parameters: runs.flat_map(|run| run.parameters.clone()).collect(),
+        manifold: choice.manifold.name(),
+        variant: String::new(),
+        samples: choice.samples.count().unwrap_or(points),
+        asked: choice.samples,
+        chosen: match choice.samples {
+            SampleCount::All(_) => "all",
+            SampleCount::Drawn(_) => choice.chosen.name(),
+        },
+        quadrature: choice.quadrature.name(),
+        update: choice.update.name(),
+        step_factor: choice.step_factor,
+        error: None,
+        reconstruction_error: None,
+        super_resolved: None,
+        latent_return: 0.0,
+        simulated: 0.0,
+        steps: 0,
+        seconds: 0.0,
+        full_seconds: 0.0,
+        nodes: 0,
+        quadrature_points: 0,
+        refreshes: 0,
+        limited: 0,
+        outcome: String::new(),
+        frames: Vec::new(),
+    }
 }
 
 /// The frames of a full-order run.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use mpm_scenes::Scene;
 
+use super::config::repeated;
 use super::{Experiment, ExperimentError, Key};
 use crate::full_order::{Case, FullOrderError, SceneDocument, Value};
 
@@ -24,6 +25,21 @@ impl Experiment {
             parameters: values.to_vec(),
             changes: changes.collect::<Result<_, ExperimentError>>()?,
         })
+    }
+
+    /// Refuses what changes nothing: a key that another one after it changes again, a parameter that no key takes.
+    pub(super) fn check_keys(&self) -> Result<(), ExperimentError> {
+        let keys: Vec<&str> = self.keys.iter().map(|key| key.key.as_str()).collect();
+        if let Some(place) = repeated(&keys) {
+            let message = format!("`{}` stands in the list before", keys[place]);
+            return Err(self.field(format!("keys.{place}.key"), message));
+        }
+        for (number, name) in self.parameters.iter().enumerate() {
+            let is_taken = self.keys.iter().any(|key| key.takes(name));
+            let message = format!("{name:?}: no key takes it");
+            self.require(is_taken, &format!("parameters.{number}"), &message)?;
+        }
+        Ok(())
     }
 
     /// The scene of the run with these values.
@@ -74,12 +90,24 @@ impl Experiment {
     }
 
     fn factor(&self, factor: &str, values: &[f64]) -> Option<f64> {
-        let (function, name): (fn(f64) -> f64, &str) = match factor.split_once(' ') {
-            Some(("cos", name)) => (f64::cos, name),
-            Some(("sin", name)) => (f64::sin, name),
-            _ => (|value| value, factor),
-        };
+        let (function, name) = parts(factor);
         let place = self.parameters.iter().position(|parameter| parameter == name)?;
         values.get(place).map(|value| function(*value))
+    }
+}
+
+impl Key {
+    /// Whether this parameter has a part in it.
+    fn takes(&self, parameter: &str) -> bool {
+        self.product.iter().any(|factor| parts(factor).1 == parameter)
+    }
+}
+
+/// The function and the parameter of a factor.
+fn parts(factor: &str) -> (fn(f64) -> f64, &str) {
+    match factor.split_once(' ') {
+        Some(("cos", name)) => (f64::cos, name),
+        Some(("sin", name)) => (f64::sin, name),
+        _ => (|value| value, factor),
     }
 }

@@ -189,7 +189,7 @@ impl ReducedRuns {
 }
 
 /// The first place whose entry stands in the list before.
-fn repeated<T: PartialEq>(list: &[T]) -> Option<usize> {
+pub(super) fn repeated<T: PartialEq>(list: &[T]) -> Option<usize> {
     (0..list.len()).find(|&place| list[..place].contains(&list[place]))
 }
 
@@ -284,10 +284,11 @@ impl Experiment {
         }
         self.trainings()?;
         // The values themselves show whether all keys make sense.
-        self.case(&self.cases.train[0]).map(|_| ())
+        self.case(&self.cases.train[0])?;
+        self.check_keys()
     }
 
-    fn require(&self, valid: bool, field: &str, message: &str) -> Result<(), ExperimentError> {
+    pub(super) fn require(&self, valid: bool, field: &str, message: &str) -> Result<(), ExperimentError> {
         let error = || self.field(field.to_owned(), message.to_owned());
         valid.then_some(()).ok_or_else(error)
     }

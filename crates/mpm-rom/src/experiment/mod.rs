@@ -15,6 +15,7 @@ mod options;
 mod read;
 mod reduced;
 mod results;
+mod same_body;
 mod sample_counts;
 mod sampling;
 mod spread;

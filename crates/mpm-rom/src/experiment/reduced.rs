@@ -5,7 +5,7 @@ use std::path::Path;
 
 use mpm_scenes::Scene;
 
-use super::beside::{Choice, Full, beside};
+use super::beside::{Choice, Full, beside, not_begun};
 use super::chosen::Chosen;
 use super::files::{self, names};
 use super::frame_files::{self, FrameFiles};
@@ -41,6 +41,7 @@ pub fn run<const D: usize>(
     }
     // Not after minutes of choices on training runs.
     experiment.check_sample_counts::<D>()?;
+    experiment.check_same_body::<D>()?;
     experiment.occupy(directory)?;
     experiment.check_scene_of(directory)?;
     let document = experiment.read_run_scene()?;
@@ -77,7 +78,7 @@ pub fn run<const D: usize>(
     let choices = choices(experiment, models.len());
     let runs = choices.len() * experiment.cases.test.len();
     let after_run = RefCell::new(after_run);
-    let mut chosen = Chosen::default();
+    let (mut chosen, mut without_points) = (Chosen::default(), Vec::new());
     if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
         let document = experiment.read_scene()?;
         for (name, network) in maps(experiment, models.len()) {
@@ -91,7 +92,9 @@ pub fn run<const D: usize>(
                 snapshots,
                 go_on: &|| after_run.borrow_mut()(0, runs),
             };
-            sampling.choose(&mut chosen)?;
+            if let Err(reason) = unless_impossible(sampling.choose(&mut chosen))? {
+                without_points.push((name, network, reason));
+            }
         }
     }
     frame_files::forget_earlier(directory)?;
@@ -142,13 +145,27 @@ pub fn run<const D: usize>(
                 ManifoldName::Network => at_rest[choice.network].clone(),
                 ManifoldName::Linear => vec![0.0; manifold.coordinates()],
             };
-            let samples = experiment.run.samples(choice, |count| {
-                let of = (choice.manifold, choice.network, choice.chosen, count);
-                chosen.points(of, manifold.coordinates(), &body)
-            })?;
-            let options = experiment.run.options(choice, samples);
-            let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, rows.len()));
-            let mut row = beside(manifold, &guess, body, &full, choice, options, written.transpose()?)?;
+            let (number, points) = (rows.len(), body.reference.len());
+            let made = || {
+                let samples = experiment.run.samples(choice, |count| {
+                    let of = (choice.manifold, choice.network, choice.chosen, count);
+                    chosen.points(of, manifold.coordinates(), &body)
+                })?;
+                let options = experiment.run.options(choice, samples);
+                let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, number));
+                beside(manifold, &guess, body, &full, choice, options, written.transpose()?)
+            };
+            let without_points = without_points.iter().find(|(name, network, _)| {
+                choice.is_made_on_training() && (*name, *network) == (choice.manifold, choice.network)
+            });
+            let made = match without_points {
+                Some((_, _, reason)) => Err(reason.clone()),
+                None => unless_impossible(made())?,
+            };
+            let mut row = made.unwrap_or_else(|outcome| ReducedRow {
+                outcome,
+                ..not_begun(&full, choice, points)
+            });
             if choice.manifold == ManifoldName::Network {
                 row.reconstruction_error = reconstruction_errors[choice.network];
                 row.variant = models[choice.network].0.clone();
@@ -163,6 +180,14 @@ pub fn run<const D: usize>(
         }
     }
     Ok(rows)
+}
+
+/// A map without a state at rest, or one from which there is no step, is a result; other errors are none.
+fn unless_impossible<T>(made: Result<T, ExperimentError>) -> Result<Result<T, String>, ExperimentError> {
+    match made {
+        Err(error @ (ExperimentError::Map(_) | ExperimentError::Online(_))) => Ok(Err(error.to_string())),
+        made => made.map(Ok),
+    }
 }
 
 /// The body of a scene about the origin of the training, with time steps so many times as long.

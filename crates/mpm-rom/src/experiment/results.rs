@@ -96,6 +96,12 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
     let exact = |value: f64| format!("{value:?}");
     let some = |value: Option<f64>| value.map(exact).unwrap_or_default();
     let fine = row.super_resolved;
+    // A run that could not begin took no time.
+    let timed = row.seconds > 0.0;
+    let per_second = |value: f64| {
+        let per_second = timed.then(|| format!("{:.3}", value / row.seconds));
+        per_second.unwrap_or_default()
+    };
     let mut columns = vec![("case", row.case.to_string())];
     let named = parameters.iter().zip(&row.parameters);
     columns.extend(named.map(|(name, &value)| (name.as_str(), exact(value))));
@@ -124,8 +130,8 @@ fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, Stri
         ("steps", row.steps.to_string()),
         ("seconds", format!("{:.6}", row.seconds)),
         ("full_seconds", format!("{:.6}", row.full_seconds)),
-        ("speed_up", format!("{:.3}", row.full_seconds / row.seconds)),
-        ("real_time_factor", format!("{:.3}", row.simulated / row.seconds)),
+        ("speed_up", per_second(row.full_seconds)),
+        ("real_time_factor", per_second(row.simulated)),
         ("nodes", row.nodes.to_string()),
         ("quadrature_points", row.quadrature_points.to_string()),
         ("neighbour_lists", row.refreshes.to_string()),

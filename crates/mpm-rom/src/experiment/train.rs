@@ -22,6 +22,7 @@ pub fn train<const D: usize>(
 ) -> Result<Vec<Trained>, ExperimentError> {
     experiment.check_sample_counts::<D>()?;
     experiment.check_reducible::<D>()?;
+    experiment.check_same_body::<D>()?;
     experiment.occupy(directory)?;
     experiment.check_scene_of(directory)?;
     let start = Instant::now();

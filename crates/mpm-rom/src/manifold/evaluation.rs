@@ -1,6 +1,6 @@
 //! What a deformation map says at a set of points.
 
-use mpm_tensor::Matrix;
+use mpm_tensor::{Matrix, vector};
 
 /// Which derivatives an evaluation carries beside the values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,4 +42,15 @@ pub struct Evaluation<const D: usize> {
     pub jacobians: Vec<[f64; D]>,
     /// ∂g̃/∂x̂ (X_p, x̂) v̂, P entries (m/s), of an evaluation along rates v̂ ([`Manifold::evaluate_moving`](super::Manifold::evaluate_moving)).
     pub velocities: Vec<[f64; D]>,
+}
+
+/// ∂g̃/∂x̂ v̂ at every point, of `jacobians` as in an [`Evaluation`].
+pub(crate) fn velocities<const D: usize>(jacobians: &[[f64; D]], rates: &[f64]) -> impl Iterator<Item = [f64; D]> {
+    jacobians.chunks_exact(rates.len().max(1)).map(move |columns| {
+        let mut velocity = [0.0; D];
+        for (column, rate) in columns.iter().zip(rates) {
+            vector::accumulate(&mut velocity, *rate, column);
+        }
+        velocity
+    })
 }

@@ -6,13 +6,12 @@ mod pod;
 #[cfg(test)]
 mod polynomial;
 
+pub(crate) use evaluation::velocities;
 pub use evaluation::{Evaluation, Wanted};
 pub use network::{Network, NetworkError, NetworkShape, Scaling};
 pub use pod::{LinearError, Pod};
 #[cfg(test)]
 pub(crate) use polynomial::Fields;
-
-use mpm_tensor::vector;
 
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {
@@ -30,15 +29,8 @@ pub trait Manifold<const D: usize>: Send + Sync {
     /// The velocity is one tangent, whatever r is; families that cannot carry it alone contract the Jacobians, as this default does.
     fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
         self.evaluate(reference, latent, Wanted::ALL, out);
-        let columns = out.jacobians.chunks_exact(rates.len().max(1));
         out.velocities.clear();
-        out.velocities.extend(columns.map(|columns| {
-            let mut velocity = [0.0; D];
-            for (column, rate) in columns.iter().zip(rates) {
-                vector::accumulate(&mut velocity, *rate, column);
-            }
-            velocity
-        }));
+        out.velocities.extend(velocities(&out.jacobians, rates));
         out.velocities.resize(reference.len(), [0.0; D]);
     }
 }

@@ -9,7 +9,7 @@ use super::quadrature::QuadraturePoints;
 use super::support::Support;
 use super::{OnlineError, ReducedBody};
 use crate::deformation_map::{AtRestTable, DeformationMap, MaterialPoints};
-use crate::manifold::{Evaluation, Manifold};
+use crate::manifold::{Evaluation, Manifold, velocities};
 
 /// Evaluations of the map for one X, at most; a point that needs more carries nothing.
 const EVALUATIONS: usize = 10;
@@ -24,6 +24,9 @@ const TABLE_MARGIN: f64 = 2.0;
 /// Steps for which a point outside the body is left alone, at most.
 const LONGEST_REST: f64 = 32.0;
 
+/// A point is no longer left alone once the fastest sample point is so many times as fast as when it was looked at: half the steps to the body are all of them then.
+const FASTER: f64 = 2.0;
+
 /// ℓᴰ points in every cell of the support of ℐ, V_q = (h/ℓ)ᴰ, with X_q from g(X_q, x̂_n) = x_q and m_q = ρ₀ V_q / J_q. Cells are those between the knots of the
 /// kernel (ours): for the quadratic one they are centred at nodes, and a node's support is exactly 3ᴰ of them.
 ///
@@ -35,6 +38,8 @@ pub(super) struct Eulerian<const D: usize> {
     pub tolerance: f64,
     table: Option<AtRestTable<D>>,
     support: Support<D>,
+    /// The largest speed of the sample points in this step.
+    fastest: f64,
     /// What is known of the points, ℓᴰ entries per cell; of this step, and of the one before.
     known: Vec<Option<Known<D>>>,
     known_before: Vec<Option<Known<D>>>,
@@ -54,6 +59,8 @@ struct Known<const D: usize> {
     /// The step that this is of, and the next at which it is looked at.
     step: u64,
     next: u64,
+    /// The largest speed of the sample points in that step.
+    fastest: f64,
 }
 
 struct Sought<const D: usize> {
@@ -69,6 +76,7 @@ impl<const D: usize> Eulerian<D> {
             tolerance: TOLERANCE,
             table: None,
             support: Support::default(),
+            fastest: 0.0,
             known: Vec::new(),
             known_before: Vec::new(),
             sought: Vec::new(),
@@ -124,6 +132,8 @@ impl<const D: usize> Eulerian<D> {
         now: &Instant<D>,
     ) {
         let (h, count) = (nodes.grid.spacing(), self.per_axis.pow(D as u32));
+        let speeds = velocities(&samples.jacobians, now.rates).map(|v| vector::norm(&v));
+        self.fastest = speeds.fold(0.0, f64::max);
         std::mem::swap(&mut self.known, &mut self.known_before);
         self.known.clear();
         self.sought.clear();
@@ -136,7 +146,8 @@ impl<const D: usize> Eulerian<D> {
                 let known = known.and_then(|list| list[digit]);
                 let number = self.known.len();
                 self.known.push(known);
-                if known.is_some_and(|known| now.step < known.next) {
+                let rests = |known: Known<D>| now.step < known.next && self.fastest <= FASTER * known.fastest;
+                if known.is_some_and(rests) {
                     continue;
                 }
                 let position = point(&centre, h, self.per_axis, digit);
@@ -204,6 +215,7 @@ impl<const D: usize> Eulerian<D> {
                         rate,
                         step,
                         next,
+                        fastest: self.fastest,
                     }
                 });
             } else if let (Some(inverse), true) = (inverse, vector::is_finite(&rest)) {

@@ -147,7 +147,8 @@ impl<'a, const D: usize> Trainer<'a, D> {
         let mut pairs = self.pairs();
         pairs.shuffle(&mut generator);
         let count = self.config.points.min(self.snapshots.points());
-        let steps = self.config.epochs * pairs.len().div_ceil(self.config.batch) as u64;
+        let of_epoch = pairs.len().div_ceil(self.config.batch) as u64;
+        let steps = self.config.epochs.saturating_mul(of_epoch);
         let (mut terms, mut rate) = (Terms::default(), self.config.initial_rate);
         for batch in pairs.chunks(self.config.batch) {
             let mut draw = || index::sample(&mut generator, self.snapshots.points(), count).into_vec();

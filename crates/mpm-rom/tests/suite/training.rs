@@ -73,6 +73,22 @@ fn the_number_of_threads_does_not_matter() {
 }
 
 #[test]
+fn more_steps_than_can_be_counted_begin_with_the_first_rate() {
+    let (snapshots, config) = small();
+    let config = Training {
+        epochs: 1 << 62,
+        batch: 3,
+        ..config
+    };
+    let mut trainer = Trainer::new(&snapshots, config.clone()).unwrap();
+    trainer
+        .train(None, &mut |_: &EpochReport| ControlFlow::Break(()))
+        .unwrap();
+    let rate = trainer.history()[0].rate;
+    assert!((rate / config.initial_rate - 1.0).abs() < 1e-12, "{rate}");
+}
+
+#[test]
 fn another_checkpoint_is_refused() {
     let (snapshots, config) = small();
     let directory = tempfile::tempdir().unwrap();

@@ -55,20 +55,26 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
 /// Test cases whose coordinates are drawn, at most.
 const DRAWN: usize = 6;
 
-/// x̂ against time, a panel for each coordinate: the first test cases, run in the way that comes first. The frames have the places of their runs among the rows.
+/// x̂ against time, a panel for each coordinate: the first test cases, run in the way that comes first of those that began; without any there is no figure, nor one of earlier runs. The frames have the places of their
+/// runs among the rows.
 pub fn coordinates(
     directory: &Path,
     experiment: &Experiment,
     rows: &Rows<'_>,
     frames: &Rows<'_>,
 ) -> Result<(), CommandError> {
-    let groups = groups(rows);
-    let Some((first, group)) = groups.first().and_then(|group| Some((group.first()?, group))) else {
+    let run_of = |row: &Row| rows.iter().position(|other| std::ptr::eq(other, row));
+    let path = directory.join("coordinates.svg");
+    let shown = groups(rows).into_iter().find_map(|group| {
+        let runs = group.iter().map(|row| (row, frames.with("run", run_of(row))));
+        let begun = runs.filter(|(_, frames)| !frames.is_empty());
+        Some(begun.take(DRAWN).collect::<Vec<_>>()).filter(|shown| !shown.is_empty())
+    });
+    let Some(shown) = shown else {
+        // There may be none.
+        let _ = std::fs::remove_file(path);
         return Ok(());
     };
-    let run_of = |row: &Row| rows.iter().position(|other| std::ptr::eq(other, row));
-    let shown = group.iter().take(DRAWN);
-    let shown: Vec<(&Row, Rows<'_>)> = shown.map(|row| (row, frames.with("run", run_of(row)))).collect();
     let names = (1..).map(|k| format!("x{k}"));
     let known = names.take_while(|name| shown[0].1.iter().any(|frame| frame.number(name).is_some()));
     let panel = |name: String| {
@@ -80,10 +86,10 @@ pub fn coordinates(
         let label = name.replace('x', "x̂");
         MultiplesPanel::over(label, AxisKind::Linear, shown.iter().map(line))
     };
-    let (title, samples) = (&experiment.title, first.value("samples"));
+    let (title, samples) = (&experiment.title, shown[0].0.value("samples"));
     let title = format!("{title}: coordinates, {samples} sample points");
     let plot = MultiplesPlot::traces(title, "time (s)", known.map(panel));
-    AtomicFile::write(directory.join("coordinates.svg"), multiples(&plot)?)
+    AtomicFile::write(path, multiples(&plot)?)
 }
 
 /// What lines may differ in, besides the choice of their points.
@@ -185,6 +191,38 @@ mod tests {
         std::fs::write(root.path().join("errors.svg"), "of earlier runs").unwrap();
         errors(root.path(), "All ended", &rows[1..].iter().collect()).unwrap();
         assert!(!root.path().join("errors.svg").exists());
+    }
+
+    #[test]
+    fn coordinates_are_those_of_runs_that_began() {
+        let text = r#"
+            title = "One"
+            scene = "none.toml"
+            parameters = ["g"]
+            keys = [{ key = "gravity.1", product = ["g"] }]
+            cases = { train = [[1.0]], test = [[2.0]] }
+        "#;
+        let experiment = Experiment::parse(text, Path::new("rom.toml")).unwrap();
+        let rows = [row("eulerian", "greedy", 10, 3.0), row("lagrangian", "greedy", 10, 3.0)];
+        let frame = |time: f64| {
+            Row::of("")
+                .with("run", 1_usize)
+                .with("time", time)
+                .with("x1", 2.0 * time)
+        };
+        let frames = [frame(0.0), frame(1.0)];
+        let root = tempfile::tempdir().unwrap();
+        let draw = |frames: &[Row]| {
+            coordinates(
+                root.path(),
+                &experiment,
+                &rows.iter().collect(),
+                &frames.iter().collect(),
+            )
+            .unwrap();
+            root.path().join("coordinates.svg").exists()
+        };
+        assert!(draw(&frames) && !draw(&[]));
     }
 
     #[test]

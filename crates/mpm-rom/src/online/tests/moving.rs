@@ -137,6 +137,32 @@ fn points_of_space_are_followed_to_where_a_search_finds_them() {
     }
 }
 
+/// The volumes of the points of space, step by step.
+fn volumes(text: &str, steps: usize, fresh: bool) -> Vec<f64> {
+    let chosen = options(SampleChoice::All, EULERIAN, Update::VelocityOnly);
+    let mut model = model(text, Fields::translations(), chosen);
+    let mut step = |_| {
+        if fresh {
+            model.scheme = Scheme::Eulerian(Eulerian::new(2));
+        }
+        model.step().expect("a step");
+        model.quadrature.volumes.iter().sum()
+    };
+    (0..steps).map(&mut step).collect()
+}
+
+/// At rest nothing reaches the points in front of it, and then it moves by half a cell in 16 steps.
+#[test]
+fn points_of_space_are_met_by_a_body_that_starts_at_once() {
+    let region =
+        "[[kinematic]]\nregion = { kind = \"box\", lower = [0.0, 0.0], upper = [0.5, 0.5] }\nvelocity = [2.0, 0.0]\n";
+    let text = format!("{BLOCK}{region}");
+    let (followed, searched) = (volumes(&text, 40, false), volumes(&text, 40, true));
+    for (step, (a, b)) in followed.iter().zip(&searched).enumerate() {
+        assert!((a - b).abs() < 1e-12, "step {step}: {a} {b}");
+    }
+}
+
 #[test]
 fn a_body_is_the_same_about_another_origin_and_with_longer_steps() {
     let own = body(BLOCK);

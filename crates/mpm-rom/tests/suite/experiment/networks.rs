@@ -48,6 +48,34 @@ fn variants_are_other_networks_for_the_same_data() {
 }
 
 #[test]
+fn a_network_that_makes_no_run_is_a_row_with_its_reason_and_the_others_go_on() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("cases = {", "variants = [{ name = \"flat\", seed = 3 }]\ncases = {");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    train::<2>(&experiment, &out, &mut ()).expect("trained");
+    // Weights and biases of zero: nothing tells the coordinates apart.
+    let model = out.join("flat").join(names::MODEL);
+    let mut bytes = std::fs::read(&model).expect("a model");
+    let (header, _) = bytes.split_first_chunk().expect("a length");
+    let start = 8 + u64::from_le_bytes(*header) as usize;
+    bytes[start..].fill(0);
+    std::fs::write(&model, bytes).expect("written");
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    assert_eq!(rows.len(), 12, "20 points and all, two updates, three maps");
+    for row in &rows {
+        let (begun, reason) = (
+            row.variant != "flat",
+            "coordinates at rest: coordinate 1 cannot be told",
+        );
+        assert_eq!((row.outcome == "finished", row.steps == 40), (begun, begun), "{row:?}");
+        assert!(begun || row.outcome.starts_with(reason), "{row:?}");
+    }
+    let table = std::fs::read_to_string(out.join(names::RESULTS)).expect("results");
+    assert!(table.lines().count() == 13 && !table.contains("NaN"), "{table}");
+}
+
+#[test]
 fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     let (directory, file) = files();
     let text = EXPERIMENT.replace("cases = {", "starts = 3\ncases = {");

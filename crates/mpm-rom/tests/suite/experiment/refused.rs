@@ -141,6 +141,43 @@ fn what_no_reduced_run_can_have_is_refused_before_the_training() {
 }
 
 #[test]
+fn a_scene_of_another_body_is_refused_before_the_training_and_before_a_run() {
+    let (directory, file) = files();
+    let linear = "manifold = [\"network\", \"linear\"]";
+    let changed = [
+        (
+            "upper = [2.0, 0.5]",
+            "upper = [2.5, 0.5]",
+            "only one of them has a point at [2.",
+        ),
+        (
+            "upper = [2.0, 0.5]",
+            "upper = [1.5, 0.5]",
+            "only one of them has a point at [1.",
+        ),
+        (
+            "lower = [0.0, 0.0], upper = [2.0, 0.5]",
+            "lower = [0.0, 0.5], upper = [2.0, 1.0]",
+            "only one",
+        ),
+    ];
+    let whole = directory.path().join("whole");
+    train_one(&Experiment::read(&file).expect("sound"), &whole);
+    for (old, new, expected) in changed {
+        assert!(SCENE.contains(old));
+        std::fs::write(directory.path().join("other.toml"), SCENE.replace(old, new)).expect("written");
+        for key in ["scene", "super_resolution"] {
+            let text = EXPERIMENT.replace(linear, &format!("{key} = \"other.toml\""));
+            let field = format!("run.{key}: another body than that of the training: {expected}");
+            assert_not_begun(&text, &file, &directory.path().join("out"), &field);
+            let experiment = Experiment::parse(&text, &file).expect("sound");
+            let error = run::<2>(&experiment, &whole, &mut |_, _| true).expect_err("another body");
+            assert!(error.to_string().contains(&field), "{error}");
+        }
+    }
+}
+
+#[test]
 fn a_step_factor_that_does_not_divide_a_frame_is_refused_before_the_training() {
     let (directory, file) = files();
     for factor in [0, 7] {
