@@ -20,8 +20,12 @@ impl Groups {
         for _ in 0..count {
             let dimension = cursor.parse("the dimension of a group")?;
             let tag = cursor.parse("the tag of a group")?;
+            let mark = cursor.mark();
             let name = cursor.quoted("the name of a group in quotes")?;
-            self.names.insert((dimension, tag), name.to_owned());
+            let named = self.names.insert((dimension, tag), name.to_owned());
+            if named.is_some_and(|before| before != name) {
+                return Err(cursor.malformed(mark, "the name that the group has already", name));
+            }
         }
         Ok(())
     }

@@ -83,6 +83,17 @@ fn in_version_2_an_element_that_comes_once_for_each_group_is_one() {
 
 /// What is there twice without being in two groups is still one cell too many.
 #[test]
+fn a_group_with_two_names_is_refused() {
+    let file = String::from_utf8(text(&square(false))).expect("text");
+    let twice = file.replace("1 11 \"outside\"", "1 10 \"outside\"");
+    let error = read_msh::<2>(twice.as_bytes()).expect_err("two names");
+    assert_eq!(
+        error.to_string(),
+        "line 7: `outside` where the name that the group has already should be"
+    );
+}
+
+#[test]
 fn other_repeated_cells_are_refused() {
     let message = |change: fn(&mut [Element])| {
         let mut elements = square(false);
