@@ -2,12 +2,15 @@
 
 use std::ops::RangeInclusive;
 
+/// Blocks that free draws are cut into.
+const BLOCKS: usize = 8;
+
 /// An expectation with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The value.
     pub value: f64,
-    /// Its standard error, by the spread of the weights: of the probability of an event that few points meet far too small, and 0 where none does.
+    /// Its standard error, by the spread of the weights and of free draws: of the probability of an event that few points meet far too small, and 0 where none does.
     pub standard_error: f64,
     /// (Σ |w f|)² / Σ (w f)² over the points at which the target was evaluated: how many of equal weight carry the value. Of an event it is the effective size of the points that meet
     /// it, 0 where none does.
@@ -15,7 +18,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Σ c f ± (Σ c² (f − f̄)²)^½ of terms (c, f, whether the target was evaluated there): those where it was count in the error and carry the value. And the largest |c (f − f̄)| of the others.
+    /// Σ c f ± (Σ c² (f − f̄)² + Σ v)^½ of terms (c, f, whether the target was evaluated there): the first sum is over those where it was, which carry the value; v is that of each run of others, the free
+    /// draws of one proposal, by [how far blocks of them are apart](variance_by_blocks). And the largest |c (f − f̄)| of these.
     pub(crate) fn of_terms(terms: impl Iterator<Item = (f64, f64, bool)>) -> (Self, f64) {
         let terms: Vec<_> = terms.collect();
         let value: f64 = terms.iter().map(|(c, f, _)| c * f).sum();
@@ -23,13 +27,13 @@ impl Estimate {
         let carried = terms.iter().filter(|(.., evaluated)| *evaluated);
         let carriers = carriers(carried.map(|(c, f, _)| (c * f).abs()));
         let unit = unit_of_squares(terms.iter().map(|(c, f, _)| c * f));
-        for (c, f, evaluated) in terms {
-            let term = c * (f - value);
-            if evaluated {
-                let scaled = term / unit;
-                variance += scaled * scaled;
+        let share = |(c, f, _): &(f64, f64, bool)| c * (f - value);
+        for run in terms.chunk_by(|one, next| one.2 == next.2) {
+            if run[0].2 {
+                variance += run.iter().map(|term| (share(term) / unit).powi(2)).sum::<f64>();
             } else {
-                largest = f64::max(largest, term.abs());
+                largest = run.iter().map(|term| share(term).abs()).fold(largest, f64::max);
+                variance += variance_by_blocks(run.len(), |index| share(&run[index]) / unit);
             }
         }
         let standard_error = unit * f64::sqrt(variance);
@@ -40,6 +44,15 @@ impl Estimate {
         };
         (estimate, largest)
     }
+}
+
+/// The variance of the sum of quasi-random terms, by that of the sums of blocks of neighbours: what is smooth is nearly the same in each, and of what no block resolves they are as good as independent.
+fn variance_by_blocks(count: usize, term: impl Fn(usize) -> f64) -> f64 {
+    let bounds = |block: usize| block * count / BLOCKS..(block + 1) * count / BLOCKS;
+    let sums: [f64; BLOCKS] = std::array::from_fn(|block| bounds(block).map(&term).sum());
+    let mean = sums.iter().sum::<f64>() / BLOCKS as f64;
+    let squares = sums.iter().map(|sum| (sum - mean).powi(2)).sum::<f64>();
+    squares * BLOCKS as f64 / (BLOCKS - 1) as f64
 }
 
 /// What numbers are divided by before they are squared: 1, or the largest of their sizes where its square is no number to rely on, as of likelihoods.
@@ -83,6 +96,21 @@ mod tests {
         for unit in [1e-300, 1e-170, 1e-99, 1e99, 1e170, 1e300] {
             assert!((error(unit) / expected - 1.0).abs() < 1e-12, "{unit}: {}", error(unit));
         }
+    }
+
+    #[test]
+    fn what_blocks_agree_about_is_no_error() {
+        let error = |f: &dyn Fn(f64) -> f64| {
+            let terms = (0..800).map(|index| (1.0 / 800.0, f(f64::from(index)), false));
+            Estimate::of_terms(terms).0.standard_error
+        };
+        // What no block resolves is as good as independent, here of a variance of 1/12.
+        let independent = (1.0_f64 / 12.0 / 800.0).sqrt();
+        let rough = error(&|index| (0.754_877_666_246_692_7 * index * index).fract());
+        assert!((0.5..2.0).contains(&(rough / independent)), "{rough} {independent}");
+        let even = error(&|index| (0.618_033_988_749_895 * index).fract());
+        assert!(even < 0.3 * independent, "{even} {independent}");
+        assert!(error(&|_| 3.0) < 1e-15);
     }
 
     #[test]

@@ -28,7 +28,7 @@ pub struct Measure<const D: usize> {
     pub points: Vec<[f64; D]>,
     /// c; they sum to one.
     pub weights: Vec<f64>,
-    /// Whether the target was evaluated there; else the point is a free draw, and certain.
+    /// Whether the target was evaluated there; else the point is a free draw, of a proposal whose density is known.
     pub evaluated: Vec<bool>,
     /// Σ c² r over the points that were evaluated, r = (1 + |z|²/D)/2 at z of [`frame`](Self::frame): what 1/n is for n independent draws.
     pub variance: f64,
@@ -177,7 +177,7 @@ impl<const D: usize> Measure<D> {
         weighted.map(|(y, c)| c * f(y)).sum()
     }
 
-    /// Σ c f(y) with its standard error (Σ c² (f − f̄)²)^½ over the points that were evaluated. Free draws come from kernels with longer tails than the target's: of a function that grows faster than
+    /// Σ c f(y) with its standard error: Σ c² (f − f̄)² over the points that were evaluated, and for the free draws of every fold what separates eight blocks of them, which is little of a smooth f. Free draws come from kernels with longer tails than the target's: of a function that grows faster than
     /// a power of y they may know nothing ([`Pool::expectation`](crate::Pool::expectation) sees to that).
     pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
         self.expectation_and_largest(f).0

@@ -21,6 +21,19 @@ fn the_evidence_of_a_normal_law_is_one() {
     }
 }
 
+/// Kernels are so near to a normal law that most of the error of a thin slab's mass is that of free draws.
+#[test]
+fn errors_count_free_draws() {
+    let exact = 0.079_655_674_554_057_96;
+    let squares = (0..16).map(|seed| {
+        let pool = pool_of(&Gaussian::<3>::standard(), 300, seed).unwrap();
+        let found = pool.expectation(|x| f64::from(((x[0] + x[1] + x[2]) / 3_f64.sqrt()).abs() < 0.1));
+        ((found.value - exact) / found.standard_error).powi(2)
+    });
+    let size = (squares.sum::<f64>() / 16.0).sqrt();
+    assert!((0.4..1.4).contains(&size), "{size}");
+}
+
 /// A parameter of exponential law, as its logarithm.
 struct LogarithmOfExponential;
 

@@ -17,6 +17,9 @@ const PARTICLES_PER_POLYNOMIAL: usize = 8;
 /// Degrees beyond this are taken only where they explain: else they say more about the gaps between particles than about the target.
 const MODEST_DEGREE: usize = 4;
 
+/// What a polynomial has to vary by, over its size: with less it is a constant, as the score of an exponential law, and what varies is rounding.
+const VARIES: f64 = 1e-9;
+
 /// Ridge of the normal equations, whose diagonal is one.
 const RIDGE: f64 = 1e-11;
 
@@ -144,6 +147,12 @@ impl<const D: usize> ControlVariates<D> {
         let fitted = fitted_weights(&weights, stride);
         for (column, mean) in design.iter_mut().zip(&mut means) {
             let (centre, deviation) = mean_and_deviation(&fitted, |row| column[row]);
+            // Over infinity a constant is zero, and explains nothing.
+            let deviation = if deviation > VARIES * centre.abs() {
+                deviation
+            } else {
+                f64::INFINITY
+            };
             *mean /= deviation;
             for (entry, weight) in column.iter_mut().zip(&fitted) {
                 *entry = weight.sqrt() * (*entry - centre) / deviation;
@@ -299,6 +308,22 @@ mod tests {
         let again: Vec<f64> = repeat(&positions).iter().map(|x| x[0].sin()).collect();
         let (a, b) = (weighted.expectation(&values), repeated.expectation(&again));
         assert!((a.average - b.average).abs() < 1e-12 && (a.estimate - b.estimate).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_constant_score_explains_nothing() {
+        // Exponential laws, of which two scores are constant up to the edges.
+        let uniform = |p: u32, rate: f64| (rate * (f64::from(p) + 0.5)).fract();
+        let positions: Vec<[f64; 2]> = (0..500)
+            .map(|p| [uniform(p, 0.754_877_666), uniform(p, 0.569_840_291)].map(|u| -u.ln()))
+            .collect();
+        let scores = vec![[-1.0; 2]; 500];
+        let event: Vec<f64> = positions.iter().map(|x| f64::from(x[0] > 1.0)).collect();
+        for degree in 1..=4 {
+            let regression = ControlVariates::new(&positions, &scores, None, degree).unwrap();
+            let found = regression.expectation(&event);
+            assert!(found.standard_error < 2.0, "{degree}: {found:?}");
+        }
     }
 
     #[test]
