@@ -14,8 +14,9 @@ use crate::referee::Objection;
 use crate::report::Observer;
 use crate::source::Source;
 
-/// Stream of the pool's random numbers.
+/// Streams of the pool's random numbers, and of the scramblings of free draws.
 const STREAM: u64 = 9;
+const FREE_DRAWS: u64 = 10;
 
 /// [`explore`](crate::explore), generated where it is called.
 #[allow(clippy::too_many_arguments)]
@@ -48,6 +49,8 @@ fn explored<const D: usize>(
 ) -> Result<Pool<D>, PoolError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
+    let mut scramblings = ChaCha8Rng::seed_from_u64(seed);
+    scramblings.set_stream(FREE_DRAWS);
     density.source.limit = plan.evaluations;
     let begun = Adaptation::begin(density, given, &plan, &mut rng);
     density.source.go_on()?;
@@ -70,7 +73,7 @@ fn explored<const D: usize>(
         let frozen = freeze(&mut adaptation, density, &plan, &mut rng);
         density.source.go_on()?;
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
-            let pool = Pool::new(&adaptation, &frozen, density, particles);
+            let pool = Pool::new(&adaptation, &frozen, density, particles, &mut scramblings);
             let is_final = matches!(pool.objection(particles), None | Some(Objection::Undefined(_)));
             if is_final || !plan.extend() {
                 return Ok(pool);

@@ -4,6 +4,8 @@ use std::fmt;
 
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::Frame;
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
 
 use crate::adapt::{Adaptation, QUIET};
 use crate::density::Density;
@@ -78,6 +80,7 @@ impl<const D: usize> Pool<D> {
         frozen: &Frozen<D>,
         density: &Density<'_, D>,
         particles: usize,
+        rng: &mut ChaCha8Rng,
     ) -> Self {
         let frame = density.frame;
         let folds = &adaptation.folds;
@@ -86,7 +89,7 @@ impl<const D: usize> Pool<D> {
         let fresh_logs: Vec<f64> = fresh.log_weights().iter().map(|l| l + points.ln()).collect();
         let verdict = Verdict::of(&fresh_logs, &frozen.covered, frozen.undefined);
         let all = [&folds[0], &folds[1], fresh];
-        let (log_evidence, log_evidence_error, mut measure) = together(all, verdict.effective_share, particles);
+        let (log_evidence, log_evidence_error, mut measure) = together(all, verdict.effective_share, particles, rng);
         let inconsistency = Some(measure.inconsistency()).filter(|ratio| ratio.is_finite());
         for y in &mut measure.points {
             *y = frame.to_target(y);
@@ -208,14 +211,19 @@ impl<const D: usize> Pool<D> {
     }
 }
 
-/// The folds' evidences with a standard error, and their measures, by the inverse of the variances; seeds are the folds' numbers.
+/// The folds' evidences with a standard error, and their measures, by the inverse of the variances.
 ///
 /// The last fold is of fresh points, which shaped no proposal: its evidence is unbiased. That of the others is not quite, the less so the smaller the effective `share` of the
 /// fresh points is, so that in the evidence their variances count 1/share times, and what separates them from the fresh points' beyond their errors adds to the error.
-fn together<const D: usize>(folds: [&Fold<D>; 3], share: f64, particles: usize) -> (f64, f64, Measure<D>) {
-    let each = folds.iter().zip(0..);
-    let each: Vec<(f64, Measure<D>)> = each
-        .filter_map(|(fold, seed)| Measure::of_fold(fold, particles, seed))
+fn together<const D: usize>(
+    folds: [&Fold<D>; 3],
+    share: f64,
+    particles: usize,
+    rng: &mut ChaCha8Rng,
+) -> (f64, f64, Measure<D>) {
+    let each: Vec<(f64, Measure<D>)> = folds
+        .iter()
+        .filter_map(|fold| Measure::of_fold(fold, particles, rng.random()))
         .collect();
     let doubtful = |(k, (log, measure)): (usize, &(f64, Measure<D>))| {
         let factor = if k + 1 == folds.len() {

@@ -46,9 +46,12 @@ pub fn exponent(points: impl Iterator<Item = (f64, f64)>) -> String {
     law.map_or(MISSING.to_owned(), |law| exponent_text(&law, 0))
 }
 
-/// A part of a whole in percent.
+/// A part of a whole in percent: 100 % is all of it.
 pub fn percent(part: usize, whole: usize) -> Option<String> {
-    (whole > 0).then(|| format!("{:.0} %", 100.0 * part as f64 / whole as f64))
+    (whole > 0).then(|| match 100.0 * part as f64 / whole as f64 {
+        most if part < whole && most >= 99.5 => format!("{:.1} %", (10.0 * most).floor() / 10.0),
+        percent => format!("{percent:.0} %"),
+    })
 }
 
 /// Words for several, and for one.
@@ -133,5 +136,19 @@ pub fn number_of(value: f64, digits: usize) -> String {
     match power.filter(|power| (-3..5).contains(power)) {
         Some(power) => format!("{value:.*}", (digits as i32 - 1 - power).max(0) as usize),
         None => scientific,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percent;
+
+    #[test]
+    fn nearly_all_is_not_all() {
+        let percent = |part| percent(part, 1600).unwrap();
+        assert_eq!(
+            [0, 800, 1591, 1592, 1599, 1600].map(percent),
+            ["0 %", "50 %", "99 %", "99.5 %", "99.9 %", "100 %"]
+        );
     }
 }

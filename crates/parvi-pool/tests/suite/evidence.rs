@@ -34,6 +34,22 @@ fn errors_count_free_draws() {
     assert!((0.4..1.4).contains(&size), "{size}");
 }
 
+/// Free draws with the same scrambling for every seed left an error that no mean over seeds took away.
+#[test]
+fn errors_of_seeds_are_independent() {
+    let exact = 0.05;
+    let errors: Vec<f64> = (0..192)
+        .map(|seed| {
+            let pool = pool_of(&Gaussian::<3>::standard(), 300, seed).unwrap();
+            pool.expectation(|x| f64::from(x[0] > 1.644_853_626_951_472_7)).value - exact
+        })
+        .collect();
+    let mean = errors.iter().sum::<f64>() / 192.0;
+    let variance = errors.iter().map(|error| (error - mean).powi(2)).sum::<f64>() / 191.0;
+    let deviation = mean / (variance / 192.0).sqrt();
+    assert!(deviation.abs() < 2.5, "{deviation}");
+}
+
 /// A parameter of exponential law, as its logarithm.
 struct LogarithmOfExponential;
 

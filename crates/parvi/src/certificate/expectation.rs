@@ -14,7 +14,7 @@ const EXPLAINED: f64 = 0.05;
 /// an error estimate.
 ///
 /// `None` if the particles are too few (fewer than 8 D) or lie in a plane, or where a score or a value is not finite. The scores know nothing of the
-/// masses of separate pieces: there the part between the pieces counts as unexplained.
+/// masses of separate pieces: where particles are in several, the part between these counts as unexplained; of one that none is in nothing is said.
 ///
 /// Of an event that no particle meets the average is 0 and its standard error, too, whatever the event's probability is: M particles know of probabilities from about 1/M on (docs/limitations.md).
 pub fn expectation<const D: usize>(
