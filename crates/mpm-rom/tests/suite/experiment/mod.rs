@@ -62,14 +62,6 @@ fn break_if(stop: bool) -> ControlFlow<()> {
     }
 }
 
-/// The experiment with a part of its file replaced, and a directory for it.
-fn edited(old: &str, new: &str) -> (tempfile::TempDir, Experiment, PathBuf) {
-    let (directory, file) = files();
-    let experiment = Experiment::parse(&EXPERIMENT.replace(old, new), &file).expect("sound");
-    let out = directory.path().join("out");
-    (directory, experiment, out)
-}
-
 fn train_one(experiment: &Experiment, directory: &Path) -> Trained {
     let mut trained = train::<2>(experiment, directory, &mut ()).expect("trained");
     assert_eq!(trained.len(), 1);

@@ -49,7 +49,12 @@ fn variants_are_other_networks_for_the_same_data() {
 
 #[test]
 fn a_network_that_makes_no_run_is_a_row_with_its_reason_and_the_others_go_on() {
-    let (_directory, experiment, out) = edited("cases = {", "variants = [{ name = \"flat\", seed = 3 }]\ncases = {");
+    let (directory, file) = files();
+    let flat = EXPERIMENT.replace("cases = {", "variants = [{ name = \"flat\", seed = 3 }]\ncases = {");
+    let (experiment, out) = (
+        Experiment::parse(&flat, &file).expect("sound"),
+        directory.path().join("out"),
+    );
     train::<2>(&experiment, &out, &mut ()).expect("trained");
     // Weights and biases of zero: nothing tells the coordinates apart.
     let model = out.join("flat").join(names::MODEL);
@@ -74,7 +79,10 @@ fn a_network_that_makes_no_run_is_a_row_with_its_reason_and_the_others_go_on() {
 
 #[test]
 fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
-    let (_directory, experiment, out) = edited("cases = {", "starts = 3\ncases = {");
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("cases = {", "starts = 3\ncases = {");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
     let trained = train_one(&experiment, &out);
     assert_eq!(
         trained.starts.iter().map(|start| start.seed).collect::<Vec<_>>(),
