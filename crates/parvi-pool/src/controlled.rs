@@ -21,8 +21,9 @@ impl<const D: usize> Pool<D> {
     pub fn controlled(&self) -> (Vec<[f64; D]>, Vec<f64>) {
         let (measure, own) = (&self.measure, self.measured());
         let of_pool = |values: &[f64], absent: f64| -> Vec<f64> {
-            let value = |number: &Option<usize>| number.map_or(absent, |number| values[number]);
-            own.iter().map(value).collect()
+            let value = |number: &Option<usize>| number.and_then(|number| values.get(number).copied());
+            let found = own.iter().take(measure.weights.len()).map(value);
+            found.map(|value| value.unwrap_or(absent)).collect()
         };
         let (mut weights, logs) = (of_pool(&self.weights, 0.0), of_pool(&self.log_densities, 0.0));
         let outside = measure
@@ -40,7 +41,7 @@ impl<const D: usize> Pool<D> {
         }
         let frame = measure.frame();
         let places: Vec<[f64; D]> = measure.points.iter().map(|y| frame.to_reference(y)).collect();
-        let mut order: Vec<u32> = (0..places.len() as u32).collect();
+        let mut order: Vec<u32> = (0..weights.len() as u32).collect();
         let total = Debts {
             places: &places,
             weights: &mut weights,
@@ -179,6 +180,12 @@ mod tests {
         let (points, weights) = edged.controlled();
         assert!(points.iter().all(|[t]| *t > 0.0) && weights.iter().all(|w| *w > 0.0));
         assert!(points.len() <= edged.positions.len());
+        // The fields are anyone's to change.
+        let mut short = smooth;
+        short.weights.truncate(100);
+        short.log_densities.clear();
+        short.measure.weights.truncate(50);
+        assert_eq!(short.controlled().0.len(), short.controlled().1.len());
     }
 
     fn settled(places: &[[f64; 1]], weights: &[f64]) -> (Vec<f64>, f64) {
