@@ -81,7 +81,6 @@ fn in_version_2_an_element_that_comes_once_for_each_group_is_one() {
     }
 }
 
-/// What is there twice without being in two groups is still one cell too many.
 #[test]
 fn a_group_with_two_names_is_refused() {
     let file = String::from_utf8(text(&square(false))).expect("text");
@@ -93,6 +92,7 @@ fn a_group_with_two_names_is_refused() {
     );
 }
 
+/// What is there twice without being in two groups is still one cell too many.
 #[test]
 fn other_repeated_cells_are_refused() {
     let message = |change: fn(&mut [Element])| {
