@@ -1,5 +1,6 @@
 //! The measure as a sample: points and free draws with weights of which none is negative.
 
+use crate::order::extent;
 use crate::pool::Pool;
 
 /// Mass that negative weights may have before it is taken from where points are near: with more of it, the way to these costs more than control variates gain.
@@ -20,20 +21,19 @@ impl<const D: usize> Pool<D> {
     /// takes the rest from the other, whose weights shrink by a factor. So mass moves no farther than it has to.
     pub fn controlled(&self) -> (Vec<[f64; D]>, Vec<f64>) {
         let (measure, own) = (&self.measure, self.measured());
-        let of_pool = |values: &[f64], absent: f64| -> Vec<f64> {
+        let of_pool = |values: &[f64]| -> Vec<f64> {
             let value = |number: &Option<usize>| number.and_then(|number| values.get(number).copied());
             let found = own.iter().take(measure.weights.len()).map(value);
-            found.map(|value| value.unwrap_or(absent)).collect()
+            found.map(Option::unwrap_or_default).collect()
         };
-        let (mut weights, logs) = (of_pool(&self.weights, 0.0), of_pool(&self.log_densities, 0.0));
+        let (mut weights, logs) = (of_pool(&self.weights), of_pool(&self.log_densities));
         let outside = measure
             .weights
             .iter()
             .zip(&logs)
             .filter(|(_, log)| **log == f64::NEG_INFINITY);
         if outside.map(|(c, _)| c.abs()).sum::<f64>() > LARGEST_OUTSIDE {
-            let weighing = self.positions.iter().zip(&self.weights).filter(|(_, w)| **w > 0.0);
-            return weighing.unzip();
+            return self.weighing();
         }
         let share = largest_share(&measure.weights, &weights);
         for (w, c) in weights.iter_mut().zip(&measure.weights) {
@@ -124,15 +124,11 @@ impl<const D: usize> Debts<'_, D> {
     }
 
     fn longest_side(&self, numbers: &[u32]) -> usize {
-        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-        for number in numbers {
-            let place = &self.places[*number as usize];
-            for axis in 0..D {
-                (low[axis], high[axis]) = (low[axis].min(place[axis]), high[axis].max(place[axis]));
-            }
-        }
-        let side = |axis: usize| high[axis] - low[axis];
-        (0..D).max_by(|&a, &b| side(a).total_cmp(&side(b))).unwrap_or(0)
+        let sides: [f64; D] = std::array::from_fn(|axis| {
+            let (low, high) = extent(numbers.iter().map(|number| self.places[*number as usize][axis]));
+            high - low
+        });
+        (0..D).max_by(|&a, &b| sides[a].total_cmp(&sides[b])).unwrap_or(0)
     }
 }
 
@@ -185,7 +181,7 @@ mod tests {
         short.weights.truncate(100);
         short.log_densities.clear();
         short.measure.weights.truncate(50);
-        assert_eq!(short.controlled().0.len(), short.controlled().1.len());
+        assert!((1..=50).contains(&short.controlled().0.len()));
     }
 
     fn settled(places: &[[f64; 1]], weights: &[f64]) -> (Vec<f64>, f64) {

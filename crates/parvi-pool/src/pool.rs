@@ -146,6 +146,12 @@ impl<const D: usize> Pool<D> {
         1.0 - OVERLOOKED.powf(1.0 / self.drawn_in_vain as f64)
     }
 
+    /// The points that weigh anything, with their weights.
+    pub fn weighing(&self) -> (Vec<[f64; D]>, Vec<f64>) {
+        let pairs = self.positions.iter().zip(&self.weights);
+        pairs.filter(|(_, weight)| **weight > 0.0).unzip()
+    }
+
     /// Kish's effective size of the weights.
     pub fn effective_size(&self) -> f64 {
         effective_size(&self.weights)

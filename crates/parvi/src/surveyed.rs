@@ -78,10 +78,7 @@ pub(crate) fn sample_as_it_is<const D: usize>(
     let tails = Tails::of(task.target, task.frame, &pool);
     let (positions, weights) = match condense {
         Condensation::On => return condensed(options, task, journal, pool, tails),
-        Condensation::Off => {
-            let pairs = pool.positions.iter().zip(&pool.weights);
-            pairs.filter(|(_, weight)| **weight > 0.0).unzip()
-        }
+        Condensation::Off => pool.weighing(),
         Condensation::Controlled => pool.controlled(),
     };
     let checks = Checks::of(task, &pool, tails);
