@@ -13,7 +13,7 @@ const LARGEST_OUTSIDE: f64 = 1e-6;
 const HALVINGS: usize = 20;
 
 impl<const D: usize> Pool<D> {
-    /// Points with weights that are positive and sum to one, nearer to the target than all evaluations with their [`weights`](Self::weights) are, of which they are a part: the others are free draws of
+    /// Points with weights that are positive and sum to one, as a rule nearer to the target than all evaluations with their [`weights`](Self::weights) are, of which they are a part, the more so the nearer the last proposals are to it: the others are free draws of
     /// the last proposals, by which [`measure`](Self::measure) takes most of the weights' noise away. Where these proposals reach over an edge of the target it is the evaluations alone.
     ///
     /// θ c + (1 − θ) w, c the weights of the measure, w those of the pool, 0 where nothing was evaluated, and θ in [0, 1] the largest number for which negative ones sum to no less than −0.02.
