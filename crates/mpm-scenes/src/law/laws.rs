@@ -43,10 +43,20 @@ impl<const D: usize> Laws<D> {
         (!table.is_empty()).then_some(Self { table })
     }
 
-    /// The longest explicit step for viscous stresses on a grid of this spacing, that of the law for which it is shortest; infinite without viscosity.
-    pub fn viscous_step(&self, spacing: f64) -> f64 {
-        let steps = self.table.iter().map(|law| law.longest_viscous_step(spacing));
-        steps.fold(f64::INFINITY, f64::min)
+    /// The longest explicit step for the viscous stresses of particles on a grid of this spacing, that of the particle for which it is shortest; infinite without viscosity.
+    ///
+    /// That of a law is for its density at rest: a particle of J > 1 pulls at its nodes with V⁰ J σ, and has a step J times as short.
+    #[allow(non_snake_case)]
+    pub fn viscous_step(&self, spacing: f64, F: &[Matrix<D>], states: &[LawState]) -> f64 {
+        let at_rest: Vec<f64> = self.table.iter().map(|law| law.longest_viscous_step(spacing)).collect();
+        if at_rest.iter().all(|step| *step == f64::INFINITY) {
+            return f64::INFINITY;
+        }
+        let each = F.iter().zip(states).map(|(F, state)| {
+            let step = at_rest.get(state.law as usize).unwrap_or(&f64::INFINITY);
+            step / self.volume_ratio(F, state).max(1.0)
+        });
+        each.fold(f64::INFINITY, f64::min)
     }
 
     /// The names of all internal variables, those of the first law first.

@@ -89,7 +89,7 @@ impl<'a, const D: usize> Body<'a, D> {
         let events = [self.frames, self.rows, self.checkpoints].map(|schedule| schedule.time(schedule.next(time)));
         let event = events.into_iter().fold(self.scene.time.end, f64::min);
         let rest = event - time;
-        let viscous = self.motion.laws().viscous_step(self.motion.spacing());
+        let viscous = viscous_step(&*self.motion);
         let free = longest.min(self.scene.time.courant * viscous);
         let free = free.min(self.scene.time.step.unwrap_or(f64::INFINITY));
         // Two equal steps to the event, not a long one and a tiny one; what is tiny by rounding is none.
@@ -133,6 +133,13 @@ impl<'a, const D: usize> Body<'a, D> {
     }
 }
 
+/// The longest step for the viscous stresses of the particles as they are.
+fn viscous_step<const D: usize>(motion: &dyn Motion<D>) -> f64 {
+    let particles = motion.particles();
+    let (deformations, states) = (&particles.deformation_gradients, &particles.states);
+    motion.laws().viscous_step(motion.spacing(), deformations, states)
+}
+
 /// Whether the time step that a scene asks for is one that the Courant condition allows at the start, and the end one that allowed steps reach.
 fn check_step<const D: usize>(
     scene: &Scene,
@@ -145,7 +152,7 @@ fn check_step<const D: usize>(
     let speed = motion.particles().largest_speed();
     let limit = courant * motion.spacing() / (wave_speed + speed);
     let end = scene.time.end;
-    let free = limit.min(courant * motion.laws().viscous_step(motion.spacing()));
+    let free = limit.min(courant * viscous_step(motion));
     match scene.time.step {
         Some(step) if step > limit => {
             let fault = SceneFault::TimeStep { step, limit, courant };

@@ -59,6 +59,37 @@ fn a_viscous_bar_swings_out() {
     assert!((kept / expected - 1.0).abs() < 0.02, "{kept} of {expected}");
 }
 
+/// A viscous fluid that is torn apart, to 25 times its volume: nothing pushes, so its energy never grows, however thin it is.
+#[test]
+fn a_viscous_fluid_that_thins_makes_no_energy() {
+    let text = r#"
+title = "spray"
+dimension = 2
+domain = { lower = [-6.0, -6.0], upper = [6.0, 6.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "apic" }
+time = { end = 2.0 }
+materials.oil = { law = "tait-fluid", density = 1.0, sound_speed = 10.0, viscosity = 5.0 }
+output = { interval = 2.0, series_interval = 0.1 }
+
+[[bodies]]
+name = "drop"
+material = "oil"
+shape = { kind = "sphere", centre = [0.0, 0.0], radius = 1.0 }
+velocity = { kind = "linear", centre = [0.0, 0.0], gradient = [[2.0, 0.0], [0.0, 2.0]] }
+"#;
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
+    let torn = read_series(directory.path()).expect("written");
+    let column = |name| torn.column(name).expect("a column");
+    let energies = column("kinetic_energy").into_iter().zip(column("affine_energy"));
+    let energies: Vec<f64> = energies.map(|(kinetic, affine)| kinetic + affine).collect();
+    assert!(
+        energies.is_sorted_by(|before, after| *after <= before * (1.0 + 1e-3)),
+        "{energies:?}"
+    );
+}
+
 /// A bar at rest under a tension t on its end is t L / E longer; the layer that t is spread over takes half its length off.
 #[test]
 fn a_traction_stretches_by_its_stress_over_the_modulus() {

@@ -103,6 +103,9 @@ fn every_particle_follows_its_own_law_and_remembers_by_it() {
         Law::wave_speed(&rubber, &trial, &(), 2.0)
     );
     assert!(laws.rate_dependent());
-    assert!((laws.viscous_step(0.1) - 0.01 * 2.0 / 0.4).abs() < 1e-15);
+    let viscous_step = |law: u32, F: Matrix<2>| laws.viscous_step(0.1, &[F], &[LawState::virgin(law)]);
+    assert!((viscous_step(2, Matrix::IDENTITY) - 0.01 * 2.0 / 0.4).abs() < 1e-15);
+    assert!((viscous_step(2, Matrix::IDENTITY * 2.0) - 0.01 * 0.5 / 0.4).abs() < 1e-15);
+    assert_eq!(viscous_step(3, Matrix::IDENTITY), f64::INFINITY);
     assert!(Law::<2>::check(&laws, &Matrix([[1.0, 0.0], [0.0, -1.0]])).is_err());
 }
