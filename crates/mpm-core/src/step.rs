@@ -136,6 +136,9 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         let forces = pulled.then_some((self.node_forces.as_slice(), dt));
         let square = advance(self.nodes.as_mut_slice(), forces, damping, speed_limit);
         if square.is_nan() {
+            // Particles that deform first may have lost their stress in this step.
+            let stressed = self.medium.wave_speed(&self.particles);
+            stressed.map_err(|error| self.particles.name(error))?;
             self.basis.node_positions(&mut self.node_positions);
             let nodes = self.nodes.as_slice();
             return Err(what_is_not_finite(

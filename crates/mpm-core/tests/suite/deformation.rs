@@ -1,7 +1,8 @@
 //! When and how particles deform: the orders of a step, averaged volume ratios, moving least squares, materials with memory.
 
 use mpm_core::{
-    Apic, Basis, Continuum, Flip, Medium, Mls, Mpm, Particles, Pic, SplineGrid, StressUpdate, Transfer, VolumeAveraging,
+    Apic, Basis, Continuum, Flip, Medium, Mls, Mpm, MpmError, Particles, Pic, SplineGrid, StressUpdate, Transfer,
+    VolumeAveraging,
 };
 use mpm_kernels::{Cubic, Linear, Quadratic, SecondMoment, Spline};
 use mpm_materials::{DeformationError, ElasticModuli, Law, NeoHookean};
@@ -217,6 +218,21 @@ fn a_material_remembers_and_feels_the_rate_of_deformation() {
             let volume = |p: &Particles<2, _>| p.deformation_gradients.iter().map(Matrix::determinant).sum::<f64>();
             assert!(volume(&thick) < volume(&thin), "viscosity resists expansion, {order:?}");
         }
+    }
+}
+
+/// A step so long that it turns particles inside out says so by one of them, whether they have deformed before forces or are found by the step that follows.
+#[test]
+fn whoever_is_turned_inside_out_is_named_in_any_order() {
+    for order in [StressUpdate::First, StressUpdate::Last, StressUpdate::ModifiedLast] {
+        let mut body = body::<Quadratic, _, _, 3>(Apic, any_order(20.0));
+        body.stress_update = order;
+        body.particles.velocities = body.particles.positions.iter().map(|x| [-50.0 * x[0], 0.0]).collect();
+        let error = (0..2).find_map(|_| body.step(&free(0.05)).err());
+        assert!(
+            matches!(error, Some(MpmError::Deformation { .. })),
+            "{order:?}: {error:?}"
+        );
     }
 }
 
