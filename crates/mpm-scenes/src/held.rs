@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use mpm_core::PrescribedVelocity;
+use mpm_tensor::vector;
 
 use crate::SceneFault;
 use crate::kinematics::{self, RigidMotion};
 use crate::scene::Scene;
-use crate::shape::{self, Shape};
+use crate::shape::{self, Bounds, Shape};
 
 /// A region that moves as a rigid body; nodes in it have its velocity, [`RigidMotion::mean_velocity`] of the step.
 #[derive(Clone, Debug)]
@@ -35,6 +36,15 @@ impl<const D: usize> HeldRegion<D> {
             })
         };
         scene.held.iter().enumerate().map(region).collect()
+    }
+
+    /// A bound of its speed: that of the fastest corner of the box around it, and of its turn none where the box is infinite.
+    pub(crate) fn largest_speed(&self) -> f64 {
+        let (Bounds { lower, upper }, motion) = (self.shape.bounds(), &self.motion);
+        let corner = |k: usize| std::array::from_fn(|a| if k >> a & 1 == 0 { lower[a] } else { upper[a] });
+        let turning = |k| vector::norm(&motion.spin.apply(&vector::subtract(&corner(k), &motion.centre)));
+        let finite = (0..1 << D).map(turning).filter(|speed| speed.is_finite());
+        vector::norm(&motion.velocity) + finite.fold(0.0, f64::max)
     }
 }
 

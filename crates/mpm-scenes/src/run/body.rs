@@ -5,7 +5,7 @@ use mpm_materials::Law;
 use mpm_tensor::vector;
 
 use super::SimulationError;
-use super::boundary::{self, MovingObstacles};
+use super::boundary::{self, Movers};
 use super::budget::Budget;
 use super::dispatch;
 use super::motion::Motion;
@@ -22,7 +22,7 @@ pub(super) struct Body<'a, const D: usize> {
     scene: &'a Scene,
     pub start: Population<D>,
     pub motion: Box<dyn Motion<D>>,
-    moving: MovingObstacles<D>,
+    movers: Movers<D>,
     kinematics: Kinematics<D>,
     /// Fingerprint of the mesh's file, where there is one.
     pub mesh_contents: Option<u64>,
@@ -48,18 +48,18 @@ impl<'a, const D: usize> Body<'a, D> {
         let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
         placement::check(scene, &background, &start).map_err(refused)?;
         Probe::check_points(scene, background.room(), &start).map_err(refused)?;
-        let (boundaries, moving) = boundary::build::<D>(scene, &background).map_err(refused)?;
+        let (boundaries, movers) = boundary::build::<D>(scene, &background).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
         let mesh_contents = background.file_contents();
         let mut motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;
-        check_step(scene, &*motion, &start)?;
+        check_step(scene, &*motion, &start, &movers)?;
         let (end, output) = (scene.time.end, &scene.output);
         let budget = output.energy_budget.then(|| Budget::begin(&mut *motion));
         Ok(Self {
             scene,
             start,
             motion,
-            moving,
+            movers,
             kinematics,
             mesh_contents,
             budget,
@@ -90,7 +90,9 @@ impl<'a, const D: usize> Body<'a, D> {
         let event = events.into_iter().fold(self.scene.time.end, f64::min);
         let rest = event - time;
         let viscous = viscous_step(&*self.motion);
-        let free = longest.min(self.scene.time.courant * viscous);
+        // What moves by itself is no farther on its way than particles are.
+        let passing = self.motion.spacing() / self.movers.largest_speed(time);
+        let free = longest.min(self.scene.time.courant * viscous.min(passing));
         let free = free.min(self.scene.time.step.unwrap_or(f64::INFINITY));
         // Two equal steps to the event, not a long one and a tiny one; what is tiny by rounding is none.
         let cut = if rest > (1.0 + SAME) * self.free_step && rest < 2.0 * self.free_step {
@@ -104,7 +106,7 @@ impl<'a, const D: usize> Body<'a, D> {
             displacement: f64::INFINITY,
             friction: self.scene.time.damping,
         };
-        self.moving.place(self.motion.boundaries_mut(), time);
+        self.movers.place(self.motion.boundaries_mut(), time);
         let mut taken = 0.0;
         let mut one = |motion: &mut dyn Motion<D>| {
             taken = motion.step(&control)?.time_step;
@@ -145,6 +147,7 @@ fn check_step<const D: usize>(
     scene: &Scene,
     motion: &dyn Motion<D>,
     start: &Population<D>,
+    movers: &Movers<D>,
 ) -> Result<(), SimulationError> {
     let courant = scene.time.courant;
     let failed = |source: MpmError| SimulationError::step(1, 0.0, source, |particle| start.body(scene, particle));
@@ -153,10 +156,17 @@ fn check_step<const D: usize>(
     let limit = courant * motion.spacing() / (wave_speed + speed);
     let end = scene.time.end;
     let free = limit.min(courant * viscous_step(motion));
+    let reached = MOST_STEPS * courant * motion.spacing() / movers.largest_speed(0.0);
     match scene.time.step {
         Some(step) if step > limit => {
             let fault = SceneFault::TimeStep { step, limit, courant };
             Err(scene.error(fault).into())
+        }
+        _ if end > reached => {
+            let expected = format!(
+                "at most {reached:e}, which 1e9 steps reach that are as short as the fastest obstacle or held region asks for"
+            );
+            Err(scene.error(SceneFault::value("time.end", end, expected)).into())
         }
         _ if end > MOST_STEPS * free => {
             let (cause, body) = step_limit(scene, motion, start, free < limit);

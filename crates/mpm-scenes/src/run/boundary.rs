@@ -28,13 +28,24 @@ impl<const D: usize> SignedDistance<D> for Placed<D> {
     }
 }
 
-/// Obstacles that move: their number among the obstacles and their shape at t = 0.
-pub(super) struct MovingObstacles<const D: usize>(Vec<(usize, Arc<dyn Shape<D>>)>);
+/// What moves by itself.
+pub(super) struct Movers<const D: usize> {
+    /// Obstacles: their number among the obstacles and their shape at t = 0.
+    obstacles: Vec<(usize, Arc<dyn Shape<D>>)>,
+    /// The largest speeds of obstacles and held regions, and until when they have them.
+    speeds: Vec<(f64, f64)>,
+}
 
-impl<const D: usize> MovingObstacles<D> {
+impl<const D: usize> Movers<D> {
+    /// The largest speed at this time of a surface that may be on its way to a body.
+    pub fn largest_speed(&self, time: f64) -> f64 {
+        let still = self.speeds.iter().filter(|(_, until)| time < *until);
+        still.fold(0.0, |largest, (speed, _)| speed.max(largest))
+    }
+
     /// Puts every moving obstacle where it is at this time.
     pub fn place(&self, boundaries: &mut Boundaries<D>, time: f64) {
-        for (number, shape) in &self.0 {
+        for (number, shape) in &self.obstacles {
             if let Some(obstacle) = boundaries.obstacles.get_mut(*number) {
                 obstacle.shape = Box::new(Placed {
                     shape: Arc::clone(shape),
@@ -52,20 +63,21 @@ impl<const D: usize> MovingObstacles<D> {
 pub(super) fn build<const D: usize>(
     scene: &Scene,
     background: &Background<D>,
-) -> Result<(Boundaries<D>, MovingObstacles<D>), SceneFault> {
+) -> Result<(Boundaries<D>, Movers<D>), SceneFault> {
     plane::check_alike(scene, Some(background.room()))?;
     let walls = scene
         .walls
         .iter()
         .enumerate()
         .map(|(index, table)| wall(background.room(), index, table));
-    let (mut obstacles, mut moving) = (Vec::new(), Vec::new());
+    let (mut obstacles, mut moving, mut speeds) = (Vec::new(), Vec::new(), Vec::new());
     for (index, table) in scene.obstacles.iter().enumerate() {
         let field = format!("obstacles[{index}]");
         let shape: Arc<dyn Shape<D>> = Arc::from(shape::build::<D>(&format!("{field}.shape"), &table.shape)?);
         let velocity = velocity(&format!("{field}.velocity"), table.velocity.as_ref())?;
         if table.moves && velocity != [0.0; D] {
             moving.push((obstacles.len(), Arc::clone(&shape)));
+            speeds.push((algebra::norm(&velocity), f64::INFINITY));
         }
         let contact = match table.contact {
             scene::Contact::Stick => Contact::Stick,
@@ -82,11 +94,17 @@ pub(super) fn build<const D: usize>(
         forces,
     } = tagged::build(scene, background)?;
     obstacles.extend(tagged);
-    let held = HeldRegion::<D>::of(scene)?.into_iter();
+    let held = HeldRegion::<D>::of(scene)?;
+    speeds.extend(held.iter().map(|region| (region.largest_speed(), region.until)));
+    let held = held.into_iter();
     let prescribed = held.map(|region| Box::new(region) as Box<dyn PrescribedVelocity<D>>);
     let boundaries = Boundaries::new(walls.collect::<Result<_, _>>()?, obstacles).with_prescribed(prescribed.collect());
     let boundaries = boundaries.with_surfaces(surfaces).with_forces(forces);
-    Ok((boundaries, MovingObstacles(moving)))
+    let movers = Movers {
+        obstacles: moving,
+        speeds,
+    };
+    Ok((boundaries, movers))
 }
 
 fn obstacle<const D: usize>(shape: Arc<dyn Shape<D>>, contact: Contact, velocity: [f64; D]) -> Obstacle<D> {

@@ -68,6 +68,23 @@ fn a_surface_that_moves_begins_to_push_when_it_arrives() {
     assert!((rate / 2.0 - 1.0).abs() < 0.02, "{rate}");
 }
 
+/// A hammer that is six times as fast as the waves of what it hits has it on its face within a cell: no step takes a surface farther than particles go in one.
+#[test]
+fn a_surface_that_is_faster_than_waves_does_not_jump_into_a_body() {
+    let text = COLUMN
+        .replace("BACKGROUND", &GRID.replace("2.0", "4.0"))
+        .replace("linear-elastic", "neo-hookean")
+        .replace("velocity = [0.0, -1.0]", "")
+        .replace("end = 0.6", "end = 0.04")
+        .replace("interval = 0.6, series_interval = 0.05", "interval = 0.04");
+    let place = "shape = { kind = \"box\", lower = [-0.5, -2.0], upper = [1.5, -0.25] }\nvelocity = [0.0, 60.0]\n";
+    for hammer in ["[[obstacles]]\ncontact = \"separate\"\n", "[[held]]\n"] {
+        let hit = series(&format!("{text}\n{hammer}{place}"));
+        let lower = hit.column("lower_y").expect("a column")[1];
+        assert!((lower - (60.0 * 0.04 - 0.25)).abs() < 0.1, "{hammer}{lower}");
+    }
+}
+
 /// A block that is loaded all at once swings, and comes to rest where it lay: it does not hover.
 #[test]
 fn a_block_that_swings_stays_on_its_floor() {
