@@ -22,7 +22,7 @@ pub struct Snapshot {
     pub stresses_across: Vec<f64>,
     /// Deformation gradients F_p.
     pub deformation_gradients: Vec<f64>,
-    /// Volume ratios J_p = det F_p.
+    /// Volume ratios J_p: det F_p, and what plastic flow of the law has of the volume.
     pub volume_ratios: Vec<f64>,
     /// Masses m_p.
     pub masses: Vec<f64>,
