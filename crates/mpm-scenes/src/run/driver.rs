@@ -137,18 +137,22 @@ impl<'a, const D: usize> Driver<'a, D> {
         Ok(())
     }
 
-    /// A number that is none says that the motion has none any more, or a scene has numbers too large to be added.
-    fn check_finite(&self, row: &[f64]) -> Result<(), SimulationError> {
+    /// A number that is none says that the motion has none any more, of which the next step knows the particle, or a scene has numbers too large to be added.
+    fn check_finite(&mut self, row: &[f64]) -> Result<(), SimulationError> {
         let mut values = self.series.series().columns().iter().zip(row);
-        match values.find(|(_, value)| !value.is_finite()) {
-            None => Ok(()),
-            Some((column, &value)) => Err(SimulationError::Diverged {
-                step: self.body.step,
-                time: self.body.motion.time(),
-                column: column.clone(),
-                value,
-            }),
+        let Some((column, &value)) = values.find(|(_, value)| !value.is_finite()) else {
+            return Ok(());
+        };
+        let diverged = SimulationError::Diverged {
+            step: self.body.step,
+            time: self.body.motion.time(),
+            column: column.clone(),
+            value,
+        };
+        if value.is_nan() {
+            self.body.advance()?;
         }
+        Err(diverged)
     }
 
     fn write_checkpoint(&self) -> Result<(), SimulationError> {
