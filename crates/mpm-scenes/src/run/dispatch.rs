@@ -5,6 +5,7 @@ use mpm_core::{
     StressUpdate, Transfer, VelocityFilter,
 };
 use mpm_kernels::{Cubic, Gimp, Linear, Quadratic, Spline};
+use mpm_materials::Law;
 use mpm_mesh::{Gradient, KernelWidth, MeshBasis, Outside, SampleWeight, SimplexMesh};
 use mpm_tensor::Matrix;
 
@@ -56,11 +57,12 @@ pub(super) fn build<const D: usize>(
 ) -> Result<Box<dyn Motion<D>>, SceneFault> {
     let loads = Loads::of(scene, population, &background)?;
     placement::check_barrier(scene, &background, population, &loads)?;
+    let laws = laws(scene)?;
     let parts = Parts {
         scene,
-        particles: particles(population)?,
+        particles: particles(population, &laws)?,
         loads,
-        laws: laws(scene)?,
+        laws,
         boundaries,
     };
     match (scene.discretisation()?, background) {
@@ -103,7 +105,8 @@ fn laws<const D: usize>(scene: &Scene) -> Result<Laws<D>, SceneFault> {
     laws.ok_or_else(|| SceneFault::value("materials", [0; 0], "at least one material"))
 }
 
-fn particles<const D: usize>(population: &Population<D>) -> Result<Particles<D, LawState>, SceneFault> {
+/// At t = 0, with what the laws admit of F = λ 1: sand that begins apart is not under tension.
+fn particles<const D: usize>(population: &Population<D>, laws: &Laws<D>) -> Result<Particles<D, LawState>, SceneFault> {
     let particles = Particles::in_order(
         population.positions.clone(),
         population.velocities.clone(),
@@ -114,8 +117,10 @@ fn particles<const D: usize>(population: &Population<D>) -> Result<Particles<D, 
     let states = population.materials.iter().map(|&law| LawState::virgin(law)).collect();
     let particles = particles.map_err(refused)?;
     let mut particles = particles.with_states(population.volumes.clone(), states);
-    let stretches = population.stretches.iter();
-    particles.deformation_gradients = stretches.map(|&stretch| Matrix::IDENTITY * stretch).collect();
+    let each = population.stretches.iter().zip(&mut particles.states);
+    particles.deformation_gradients = each
+        .map(|(&stretch, state)| laws.advance(&(Matrix::IDENTITY * stretch), state))
+        .collect();
     Ok(particles)
 }
 

@@ -90,6 +90,40 @@ velocity = { kind = "linear", centre = [0.0, 0.0], gradient = [[2.0, 0.0], [0.0,
     );
 }
 
+/// Sand that begins a tenth larger than it was has gaps and no tension: it stays where it is.
+#[test]
+fn sand_that_begins_apart_rests() {
+    let text = r#"
+title = "loose sand"
+dimension = 2
+domain = { lower = [-1.0, -1.0], upper = [2.0, 2.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "apic" }
+time = { end = 0.05 }
+output = { interval = 0.05 }
+
+[materials.sand]
+law = "drucker-prager"
+density = 2000.0
+young_modulus = 1e6
+poisson_ratio = 0.3
+friction_angle = 30.0
+
+[[bodies]]
+name = "heap"
+material = "sand"
+shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] }
+deformation = 1.05
+"#;
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
+    let rested = read_series(directory.path()).expect("written");
+    for column in ["kinetic_energy", "affine_energy", "strain_energy"] {
+        let energy = rested.column(column).expect("a column");
+        assert!(energy.iter().all(|energy| *energy < 1e-12), "{column}: {energy:?}");
+    }
+}
+
 /// A bar at rest under a tension t on its end is t L / E longer; the layer that t is spread over takes half its length off.
 #[test]
 fn a_traction_stretches_by_its_stress_over_the_modulus() {
