@@ -10,8 +10,10 @@ use crate::learn::{Spending, learn};
 use crate::mixture::Mixture;
 use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
+use crate::reach::reach;
 use crate::scout::{Scouted, scout, wide};
 use crate::search::{LIGHTEST, search};
+use crate::student::Kernel;
 
 /// Effective share above which another round could gain nothing.
 const BEST_SHARE: f64 = 0.8;
@@ -160,14 +162,26 @@ impl<const D: usize> Adaptation<D> {
                 break false;
             }
         };
-        for (fold, shares) in self.folds.iter().zip(&mut self.shares) {
-            shares.resize(fold.rounds.len(), 0.0);
-        }
+        self.give_no_share();
         if met {
             (self.best, self.without_advance) = (0.0, 0);
             self.sizes = [0.0, self.folds.iter().map(Fold::effective_size).sum()];
         }
         met
+    }
+
+    /// Points far out, where much of the second moments is, and kernels there, with their shares of these.
+    pub fn reach(&mut self, density: &mut Density<'_, D>, plan: &Plan, rng: &mut ChaCha8Rng) -> Vec<Kernel<D>> {
+        let far = reach(&mut self.folds, density, plan, rng);
+        self.give_no_share();
+        far
+    }
+
+    /// Gives no share to rounds that have none yet: they are not to be frozen by it.
+    fn give_no_share(&mut self) {
+        for (fold, shares) in self.folds.iter().zip(&mut self.shares) {
+            shares.resize(fold.rounds.len(), 0.0);
+        }
     }
 
     /// Evaluations of searches since they last met a piece, over those before; infinite where they met none.

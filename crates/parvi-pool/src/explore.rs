@@ -14,9 +14,10 @@ use crate::referee::Objection;
 use crate::report::Observer;
 use crate::source::Source;
 
-/// Streams of the pool's random numbers, and of the scramblings of free draws.
+/// Streams of the pool's random numbers, of the scramblings of free draws, and of what reaches far out.
 const STREAM: u64 = 9;
 const FREE_DRAWS: u64 = 10;
+const FAR: u64 = 11;
 
 /// [`explore`](crate::explore), generated where it is called.
 #[allow(clippy::too_many_arguments)]
@@ -47,10 +48,11 @@ fn explored<const D: usize>(
     seed: u64,
     mut plan: Plan,
 ) -> Result<Pool<D>, PoolError> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(STREAM);
-    let mut scramblings = ChaCha8Rng::seed_from_u64(seed);
-    scramblings.set_stream(FREE_DRAWS);
+    let [mut rng, mut scramblings, mut far] = [STREAM, FREE_DRAWS, FAR].map(|stream| {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(stream);
+        rng
+    });
     density.source.limit = plan.evaluations;
     let begun = Adaptation::begin(density, given, &plan, &mut rng);
     density.source.go_on()?;
@@ -70,7 +72,7 @@ fn explored<const D: usize>(
             is_due = true;
             continue;
         }
-        let frozen = freeze(&mut adaptation, density, &plan, &mut rng);
+        let frozen = freeze(&mut adaptation, density, &plan, &mut rng, &mut far);
         density.source.go_on()?;
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
             let pool = Pool::new(&adaptation, &frozen, density, particles, &mut scramblings);

@@ -20,6 +20,9 @@ const SHARPENING: f64 = 0.05;
 const EARLIER: usize = 6;
 const EARLIER_SHARE: f64 = 0.4;
 
+/// Share of kernels far out over the share of second moments that they stand for.
+const FAR_SHARE: f64 = 0.5;
+
 /// Effective share over that of the last rounds below which fresh points have met something that the rounds had not.
 const SURPRISE: f64 = 0.4;
 
@@ -40,6 +43,7 @@ pub(super) fn freeze<const D: usize>(
     density: &mut Density<'_, D>,
     plan: &Plan,
     rng: &mut ChaCha8Rng,
+    far: &mut ChaCha8Rng,
 ) -> Frozen<D> {
     let source = [&adapted.folds[0], &adapted.folds[1]];
     let size: f64 = source.iter().map(|fold| fold.effective_size()).sum();
@@ -67,6 +71,8 @@ pub(super) fn freeze<const D: usize>(
         };
     };
     let (frozen, wholes) = with_earlier(frozen, adapted);
+    let far = adapted.reach(density, plan, far);
+    let frozen = with_far(&frozen, &far).unwrap_or(frozen);
     let count = plan.referee.min(rest(density));
     let undefined = density.undefined;
     let pilot = fresh.draw(density, frozen.clone(), count, rng.random());
@@ -92,14 +98,8 @@ fn with_earlier<const D: usize>(last: Mixture<D>, adapted: &Adaptation<D>) -> (M
     let mut kernels = Vec::new();
     let mut wholes = Vec::new();
     let mut add = |proposal: &Mixture<D>, share: f64| {
-        kernels.extend(proposal.kernels().iter().map(|kernel| Kernel {
-            share: share * kernel.share,
-            ..*kernel
-        }));
-        wholes.extend(proposal.kernels().last().map(|kernel| Kernel {
-            share: share * kernel.share,
-            ..*kernel
-        }));
+        kernels.extend(proposal.shared(share));
+        wholes.extend(proposal.shared(share).last());
     };
     add(&last, 1.0 - EARLIER_SHARE);
     let rounds = adapted.folds.iter().zip(&adapted.shares).flat_map(|(fold, shares)| {
@@ -113,6 +113,17 @@ fn with_earlier<const D: usize>(last: Mixture<D>, adapted: &Adaptation<D>) -> (M
     let core = last.core_count();
     let all = Mixture::new(kernels).map(|all| all.with_core(core));
     (all.unwrap_or(last), wholes)
+}
+
+/// This proposal together with kernels far out, whose shares are those of the second moments there.
+fn with_far<const D: usize>(frozen: &Mixture<D>, far: &[Kernel<D>]) -> Option<Mixture<D>> {
+    let far = far.iter().map(|kernel| Kernel {
+        share: FAR_SHARE * kernel.share,
+        ..*kernel
+    });
+    let share: f64 = far.clone().map(|kernel| kernel.share).sum();
+    let kernels = frozen.shared(1.0 - share.min(FAR_SHARE)).chain(far);
+    Mixture::new(kernels.collect()).map(|all| all.with_core(frozen.core_count()))
 }
 
 /// Whether at the fresh points the kernels that stand for samples as a whole are less than half of the frozen proposal.

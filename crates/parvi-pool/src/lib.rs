@@ -30,6 +30,7 @@ mod peaks;
 mod pieces;
 mod pool;
 mod propose;
+mod reach;
 mod referee;
 mod report;
 mod sample;

@@ -82,6 +82,14 @@ impl<const D: usize> Mixture<D> {
         &self.kernels
     }
 
+    /// The kernels as this share of another mixture.
+    pub(crate) fn shared(&self, share: f64) -> impl Iterator<Item = Kernel<D>> {
+        self.kernels.iter().map(move |kernel| Kernel {
+            share: share * kernel.share,
+            ..*kernel
+        })
+    }
+
     /// `count` draws: a scrambled Sobol' sequence whose first coordinate picks the kernel (in the order of the kernels), whose second its radius
     /// and whose others its direction.
     pub fn draws(&self, count: usize, seed: u64) -> Vec<[f64; D]> {

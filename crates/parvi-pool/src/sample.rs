@@ -2,7 +2,7 @@
 
 use mpm_tensor::{Cholesky, Matrix, vector};
 
-use crate::weights::systematic;
+use crate::weights::{runs, systematic};
 
 /// Points with weights, and the logarithm of the density that they follow, up to a constant.
 #[derive(Clone, Debug, Default)]
@@ -17,21 +17,13 @@ pub(super) struct Sample<const D: usize> {
 impl<const D: usize> Sample<D> {
     /// `count` of these points by systematic resampling, each with the number of times that it was chosen.
     pub fn resampled(&self, count: usize, offset: f64) -> Self {
-        let mut sample = Self::default();
-        let mut last = None;
-        for index in systematic(&self.weights, count, offset) {
-            match sample.weights.last_mut().filter(|_| last == Some(index)) {
-                Some(weight) => *weight += 1.0,
-                None => {
-                    sample.points.push(self.points[index]);
-                    sample.weights.push(1.0);
-                    sample.logs.push(self.logs[index]);
-                    sample.precisions.push(self.precisions[index]);
-                }
-            }
-            last = Some(index);
+        let chosen = runs(systematic(&self.weights, count, offset));
+        Self {
+            points: chosen.iter().map(|&(i, _)| self.points[i]).collect(),
+            weights: chosen.iter().map(|&(_, times)| times).collect(),
+            logs: chosen.iter().map(|&(i, _)| self.logs[i]).collect(),
+            precisions: chosen.iter().map(|&(i, _)| self.precisions[i]).collect(),
         }
-        sample
     }
 
     /// Takes the points of another sample in.

@@ -66,3 +66,9 @@ pub(super) fn systematic(weights: &[f64], count: usize, offset: f64) -> Vec<usiz
     }
     chosen
 }
+
+/// Indices in order, each with the number of times that it is there.
+pub(super) fn runs(indices: Vec<usize>) -> Vec<(usize, f64)> {
+    let equal = indices.chunk_by(|a, b| a == b);
+    equal.map(|run| (run[0], run.len() as f64)).collect()
+}

@@ -3,4 +3,5 @@
 mod folds;
 mod level_set;
 mod mixtures;
+mod reach;
 mod ridge;

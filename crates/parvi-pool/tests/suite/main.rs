@@ -7,4 +7,5 @@ mod hostile;
 mod lost_modes;
 mod needles;
 mod pieces;
+mod tails;
 mod tape;
