@@ -41,7 +41,7 @@ const SMALLEST: f64 = 5.0;
 ///
 /// With the radius r in standard deviations, the shell S_k = {2^k R ≤ r < 2^(k+1) R} is the image of S_(k−1) under y ↦ x = m + 2 (y − m), so that
 ///
-///     ∫_{S_k} r² p dx = 2^(D+2) ∫_{S_(k−1)} r² p(x(y)) dy:
+/// ∫_{S_k} r² p dx = 2^(D+2) ∫_{S_(k−1)} r² p(x(y)) dy:
 ///
 /// points of a shell that stand for r² p, led outwards and weighed by 2^(D+2) p(x)/p(y), stand for r² p in the next one.
 pub(super) fn reach<const D: usize>(
