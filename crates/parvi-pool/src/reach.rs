@@ -29,6 +29,9 @@ const LEAST: f64 = 0.005;
 /// Shells at most: the last is a thousand times as far out as the first.
 const MOST_SHELLS: usize = 10;
 
+/// Share of the last shell over that of the first one above which there may be no second moments.
+const ENDLESS: f64 = 0.25;
+
 /// Share of what is wanted of a shell that is drawn if it lacks, and draws at least.
 const NEED: f64 = 0.5;
 const FEWEST: f64 = 32.0;
@@ -37,7 +40,7 @@ const FEWEST: f64 = 32.0;
 const SMALLEST: f64 = 5.0;
 
 /// Points for both folds far out, of as large an effective size as is their share of the second moments, and the kernels that drew them, with that share; none where next to nothing is
-/// there, or enough is known of it.
+/// there, enough is known of it, or second moments do not end.
 ///
 /// With the radius r in standard deviations, the shell S_k = {2^k R ≤ r < 2^(k+1) R} is the image of S_(k−1) under y ↦ x = m + 2 (y − m), so that
 ///
@@ -62,19 +65,22 @@ pub(super) fn reach<const D: usize>(
         {
             break;
         }
-        let looked = [1, 0].map(|side| core.led(&folds[side], &known[side], shell, LOOKS, density, rng.random()));
-        let share = looked.iter().map(|led| 0.5 * led.share).sum::<f64>();
-        if share < LEAST {
+        let mut led = |shells: Range<usize>, count: usize| {
+            [1, 0].map(|side| core.led(&folds[side], &known[side], shells.clone(), count, density, rng.random()))
+        };
+        let mut share = |shells| led(shells, LOOKS).iter().map(|led| 0.5 * led.share).sum::<f64>();
+        let share_here = share(shell - 1..shell);
+        if share_here < LEAST || shell == 1 && share(0..MOST_SHELLS) > ENDLESS * share_here {
             break;
         }
-        let wanted = 0.5 * plan.goal * share;
+        let wanted = 0.5 * plan.goal * share_here;
         let needs = known.each_ref().map(|known| wanted - known.size(core.shell(shell)));
         let need = needs[0].max(needs[1]);
         if need < NEED * wanted {
             continue;
         }
         let leads = need.clamp(LOOKS as f64, LEADS) as usize;
-        let led = [1, 0].map(|side| core.led(&folds[side], &known[side], shell, leads, density, rng.random()));
+        let led = led(shell - 1..shell, leads);
         for ((fold, led), need) in folds.iter_mut().zip(led).zip(needs) {
             let left = density.source.limit.saturating_sub(density.evaluations());
             let count = need.max(FEWEST).min(0.25 * left as f64) as usize;
@@ -161,30 +167,32 @@ impl<const D: usize> Core<D> {
         }
     }
 
-    /// What `count` points of a fold in the shell before say of this one.
+    /// What `count` points of a fold in the first of these shells say of the last one.
     fn led(
         &self,
         fold: &Fold<D>,
         known: &Known,
-        shell: usize,
+        shells: Range<usize>,
         count: usize,
         density: &mut Density<'_, D>,
         offset: f64,
     ) -> Led<D> {
-        let before = known.within(&self.shell(shell - 1));
+        let doublings = (shells.end - shells.start) as i32;
+        let before = known.within(&self.shell(shells.start));
         let share_before = before.iter().sum::<f64>() / known.squares.iter().sum::<f64>();
         let chosen = runs(systematic(&before, count, offset));
         let out = |&(i, _): &(usize, f64)| {
             let y = &fold.positions[i];
-            vector::add(y, &vector::subtract(y, &self.mean))
+            vector::add_scaled(&self.mean, f64::powi(2.0, doublings), &vector::subtract(y, &self.mean))
         };
         let points: Vec<[f64; D]> = chosen.iter().map(out).collect();
         let values = density.log_densities(&points);
-        // log 2^(D+2) p(x)/p(y).
+        // log 2^(k (D+2)) p(x)/p(y).
+        let growth = f64::from(doublings) * (D + 2) as f64 * LN_2;
         let ratios: Vec<f64> = chosen
             .iter()
             .zip(&values)
-            .map(|(&(i, _), value)| (D + 2) as f64 * LN_2 + value - fold.log_densities[i])
+            .map(|(&(i, _), value)| growth + value - fold.log_densities[i])
             .collect();
         let logs: Vec<f64> = chosen
             .iter()
