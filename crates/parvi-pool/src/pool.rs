@@ -165,8 +165,8 @@ impl<const D: usize> Pool<D> {
     /// E\[f\] under the target, by the [`measure`](Self::measure) with its control variates, or by the weights alone, Σ w f ± (Σ w² (f − f̄)²)^½, where that has less than half of its error or than
     /// the share of one of its free draws: kernels have longer tails than the target, in which a function such as e^y, a parameter that was made positive, may have no expectation.
     ///
-    /// The error is that of the points that were met. Of a rare event it can be trusted where enough of them meet it: by [`carriers`](Estimate::carriers) from 100 on for a normal law and from 1,000
-    /// on for a t law with ν = 3 (docs/limitations.md); where fewer do the value is low and the error several times too small, and where none does both are 0, of an event that may well have a probability.
+    /// The error is that of the points that were met. Of a rare event it can be trusted where enough of them meet it: by [`carriers`](Estimate::carriers) from 100 on
+    /// (docs/limitations.md); where fewer do the value is low and the error several times too small, and where none does both are 0, of an event that may well have a probability.
     pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
         let (controlled, largest) = self.measure.expectation_and_largest(&f);
         let weighted = self.positions.iter().zip(&self.weights).filter(|(_, w)| **w > 0.0);
