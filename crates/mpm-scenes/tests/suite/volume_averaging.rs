@@ -7,21 +7,10 @@ title = "column under its weight"
 dimension = 1
 gravity = [-2.0]
 gravity_ramp = 1.0
-
-[domain]
-lower = [0.0]
-upper = [2.0]
-
-[grid]
-spacing = 0.1
-
-[transfer]
-kind = "apic"
-
-[time]
-end = 20.0
-damping = 5.0
-step = 0.001
+domain = { lower = [0.0], upper = [2.0] }
+grid = { spacing = 0.1 }
+transfer = { kind = "apic" }
+time = { end = 20.0, damping = 5.0, step = 0.001 }
 
 [materials.soft]
 law = "neo-hookean"
@@ -49,21 +38,10 @@ title = "cantilever under its weight"
 dimension = 2
 gravity = [0.0, -0.01]
 gravity_ramp = 8.0
-
-[domain]
-lower = [0.0, 0.0]
-upper = [5.0, 2.0]
-
-[grid]
-spacing = 0.25
-
-[transfer]
-kind = "apic"
-
-[time]
-end = 20.0
-damping = 2.0
-step = 0.0005
+domain = { lower = [0.0, 0.0], upper = [5.0, 2.0] }
+grid = { spacing = 0.25 }
+transfer = { kind = "apic" }
+time = { end = 20.0, damping = 2.0, step = 0.0005 }
 
 [materials.soft]
 law = "neo-hookean"
@@ -87,7 +65,7 @@ interval = 20.0
 
 /// The last frame of a scene with such averaging.
 fn last(scene: &str, averaging: &str) -> Snapshot {
-    let text = scene.replace("[domain]", &format!("volume_averaging = {averaging}\n\n[domain]"));
+    let text = scene.replace("domain =", &format!("volume_averaging = {averaging}\ndomain ="));
     let scene = Scene::parse(&text, "scene.toml".as_ref()).expect("a scene");
     let mut last = Snapshot::default();
     frames(&scene, &mut |snapshot| last = snapshot).expect("a run");
@@ -150,20 +128,10 @@ title = "water at rest"
 dimension = 2
 gravity = [0.0, -10.0]
 gravity_ramp = 0.5
-
-[domain]
-lower = [0.0, 0.0]
-upper = [1.0, 1.5]
-
-[grid]
-spacing = 0.1
-
-[transfer]
-kind = "flip"
-flip_share = 1.0
-
-[time]
-end = 2.0
+domain = { lower = [0.0, 0.0], upper = [1.0, 1.5] }
+grid = { spacing = 0.1 }
+transfer = { kind = "flip", flip_share = 1.0 }
+time = { end = 2.0 }
 
 [materials.water]
 law = "tait-fluid"
@@ -199,16 +167,16 @@ interval = 2.0
 /// and nearly incompressible solid is damped.
 #[test]
 fn averaged_changes_leave_what_rests_at_rest() {
-    let flip = "kind = \"flip\"\nflip_share = 1.0";
+    let flip = "kind = \"flip\", flip_share = 1.0";
     let water = "law = \"tait-fluid\"\ndensity = 1000.0\nsound_speed = 30.0\nviscosity = 1.0";
     let soft = "law = \"neo-hookean\"\ndensity = 1000.0\nyoung_modulus = 5e3\npoisson_ratio = 0.49";
     let solid = WATER
         .replace(water, soft)
-        .replace("end = 2.0", "end = 2.0\ndamping = 20.0");
+        .replace("end = 2.0", "end = 2.0, damping = 20.0");
     let transfers = [
         flip,
-        "kind = \"flip\"\npic_rate = 5.0",
-        "kind = \"flip\"\nflip_share = 0.99",
+        "kind = \"flip\", pic_rate = 5.0",
+        "kind = \"flip\", flip_share = 0.99",
         "kind = \"apic\"",
         "kind = \"mls\"",
     ];
