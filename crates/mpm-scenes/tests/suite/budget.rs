@@ -2,25 +2,17 @@
 
 use std::sync::LazyLock;
 
-use mpm_scenes::output::read_series;
-use mpm_scenes::{Series, simulate};
+use mpm_scenes::Series;
 
-use super::scenes::{BAR, BLOCK, scene};
+use super::scenes::{BAR, BLOCK, series_of};
 
 /// Courant numbers of the bounces.
 const LONG: f64 = 0.3;
 const SHORT: f64 = 0.05;
 
-/// The series of a scene.
-fn series(text: &str) -> Series {
-    let directory = tempfile::tempdir().expect("a directory");
-    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
-    read_series(directory.path()).expect("written")
-}
-
 /// A disk that bounces on a rough floor.
 fn bounce(transfer: &str, integration: &str, courant: f64) -> Series {
-    series(&format!(
+    series_of(&format!(
         r#"
 title = "bounce"
 dimension = 2
@@ -65,7 +57,7 @@ fn what_a_viscous_bar_loses_is_its_viscositys() {
         .replace("\"linear-elastic\"", "\"kelvin-voigt\"\nviscosity = 2.0")
         .replace("courant = 0.2", "courant = 0.05")
         .replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
-    let bar = series(&text);
+    let bar = series_of(&text);
     let column = |name: &str| bar.column(name).expect("a budget");
     let start = column("kinetic_energy")[0];
     assert!(drift(&bar) < 1e-12 * start, "{}", drift(&bar));
@@ -131,7 +123,7 @@ fn the_share_of_the_time_integration_goes_with_the_step() {
 #[test]
 fn the_budget_of_a_swinging_bar_closes() {
     let swinging = BAR.replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
-    let bar = series(&swinging);
+    let bar = series_of(&swinging);
     let start = bar.column("kinetic_energy").expect("a column")[0];
     let taken = largest(&bar.column("time_integration_dissipation").expect("a budget"));
     assert!(taken > 1e-3 * start, "{taken} of {start}");
@@ -142,7 +134,7 @@ fn the_budget_of_a_swinging_bar_closes() {
 #[test]
 fn the_budget_of_particles_that_are_put_in_place_closes() {
     for integration in ["explicit", "implicit"] {
-        let block = series(&format!(
+        let block = series_of(&format!(
             r#"
 title = "lifted"
 dimension = 2
@@ -195,7 +187,7 @@ fn the_work_of_a_load_and_damping_are_in_the_budget() {
         .replace("courant = 0.2", "courant = 0.2\ndamping = 1.0")
         .replace("series_interval = 0.1", "series_interval = 0.1\nenergy_budget = true");
     let load = "[[loads]]\nkind = \"traction\"\nregion = { kind = \"box\", lower = [9.0], upper = [10.0] }\ntraction = [1.0]\nthickness = 1.0\nramp = 1.0\n";
-    let bar = series(&(pulled + load));
+    let bar = series_of(&(pulled + load));
     let last = |name: &str| {
         bar.column(name)
             .and_then(|values| values.last().copied())
@@ -211,7 +203,7 @@ fn the_work_of_a_load_and_damping_are_in_the_budget() {
 fn a_budget_changes_nothing_else() {
     let with = BLOCK.replace("[output]", "[output]\nenergy_budget = true");
     assert_ne!(with, BLOCK);
-    let (with, without) = (series(&with), series(BLOCK));
+    let (with, without) = (series_of(&with), series_of(BLOCK));
     for name in without.columns() {
         assert_eq!(with.column(name), without.column(name), "{name}");
     }
@@ -219,7 +211,7 @@ fn a_budget_changes_nothing_else() {
 
 /// A column of sand that falls apart on a rough floor at the domain's border.
 fn column(courant: f64) -> Series {
-    series(&format!(
+    series_of(&format!(
         r#"
 title = "column"
 dimension = 2

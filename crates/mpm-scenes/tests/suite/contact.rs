@@ -1,15 +1,6 @@
 //! When a body meets a wall that it can leave, and where it stays.
 
-use mpm_scenes::output::read_series;
-use mpm_scenes::{Series, simulate};
-
-use super::scenes::{BAR, scene};
-
-fn series(text: &str) -> Series {
-    let directory = tempfile::tempdir().expect("a directory");
-    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
-    read_series(directory.path()).expect("written")
-}
+use super::scenes::{BAR, series_of};
 
 /// A column of length 1 with c = 10 that falls with speed 1 from 0.3 above y = 0.
 const COLUMN: &str = r#"
@@ -40,7 +31,7 @@ fn a_column_meets_a_surface_when_its_end_does() {
     let obstacle = format!("[[obstacles]]\n{half_space}\ncontact = \"separate\"\nfriction = 0.3\n");
     let facets = "[[facets]]\ngroup = \"boundary\"\ncondition = \"friction\"\nfriction = 0.3\n";
     for (background, surface) in [(GRID, wall), (GRID, obstacle.as_str()), (MESH, facets)] {
-        let fallen = series(&(COLUMN.replace("BACKGROUND", background) + surface));
+        let fallen = series_of(&(COLUMN.replace("BACKGROUND", background) + surface));
         let momentum = fallen.column("momentum_y").expect("a column");
         let relative: Vec<f64> = momentum.iter().map(|p| p / 0.4).collect();
         assert!((relative[5] + 1.0).abs() < 1e-9, "{surface}: {relative:?}");
@@ -60,7 +51,7 @@ fn a_surface_that_moves_begins_to_push_when_it_arrives() {
     let rest = rest.replace("lower = [0.0], upper = [10.0]", "lower = [1.0], upper = [11.0]");
     let piston = "[[obstacles]]\nshape = { kind = \"half-space\", point = [0.0], normal = [1.0] }\ncontact = \"separate\"\nvelocity = [0.2]\n";
     let output = output.replace("at = [10.0]", "at = [11.0]");
-    let pushed = series(&format!("{rest}\n{piston}\n{output}"));
+    let pushed = series_of(&format!("{rest}\n{piston}\n{output}"));
     let column = |name| pushed.column(name).expect("a column");
     let (time, momentum) = (column("time"), column("momentum_x"));
     assert!(momentum[..50].iter().all(|p| p.abs() < 1e-12), "{momentum:?}");
@@ -79,7 +70,7 @@ fn a_surface_that_is_faster_than_waves_does_not_jump_into_a_body() {
         .replace("interval = 0.6, series_interval = 0.05", "interval = 0.04");
     let place = "shape = { kind = \"box\", lower = [-0.5, -2.0], upper = [1.5, -0.25] }\nvelocity = [0.0, 60.0]\n";
     for hammer in ["[[obstacles]]\ncontact = \"separate\"\n", "[[held]]\n"] {
-        let hit = series(&format!("{text}\n{hammer}{place}"));
+        let hit = series_of(&format!("{text}\n{hammer}{place}"));
         let lower = hit.column("lower_y").expect("a column")[1];
         assert!((lower - (60.0 * 0.04 - 0.25)).abs() < 0.1, "{hammer}{lower}");
     }
@@ -94,7 +85,7 @@ fn a_block_that_swings_stays_on_its_floor() {
         .replace("velocity = [0.0, -1.0]", "")
         .replace("end = 0.6", "end = 6.0");
     let wall = "[[walls]]\naxis = \"y\"\nside = \"lower\"\ncondition = \"friction\"\nfriction = 0.3\n";
-    let swung = series(&(text + wall));
+    let swung = series_of(&(text + wall));
     let column = |name| swung.column(name).expect("a column");
     assert!(column("lower_y").iter().all(|y| (y - 0.025).abs() < 0.003));
     let late = &column("centre_y")[60..];
@@ -145,7 +136,7 @@ fn nodes_on_a_face_belong_to_it() {
             .fold(format!("{HUNG}{what}"), |text, (name, value)| {
                 text.replace(name, &format!("{value:?}"))
             });
-            let tip = series(&text).column("tip_displacement_x").expect("a probe")[1];
+            let tip = series_of(&text).column("tip_displacement_x").expect("a probe")[1];
             assert!((tip / 0.005 - 1.0).abs() < 0.1, "{what}, {lower}, {face}: {tip}");
         }
     }
@@ -154,7 +145,7 @@ fn nodes_on_a_face_belong_to_it() {
 /// A disk of radius ½, ten cells across, rolls down a slope of 10°: a rigid one goes ⅓ g sin 10° t², this one less, since nodes stop at every new touch.
 #[test]
 fn a_disk_of_ten_cells_is_slow_to_roll() {
-    let rolled = series(
+    let rolled = series_of(
         r#"
 title = "disk"
 dimension = 2

@@ -1,9 +1,8 @@
 //! Loads and moving obstacles against what a bar does exactly.
 
-use mpm_scenes::output::read_series;
-use mpm_scenes::{Series, simulate};
+use mpm_scenes::Series;
 
-use super::scenes::{BAR, scene};
+use super::scenes::{BAR, series_of};
 
 /// The series of the bar's scene with some texts replaced and others added at the end.
 fn series(replaced: &[(&str, &str)], added: &str) -> Series {
@@ -12,9 +11,7 @@ fn series(replaced: &[(&str, &str)], added: &str) -> Series {
         assert!(text.contains(from), "{from}");
         text = text.replacen(from, to, 1);
     }
-    let directory = tempfile::tempdir().expect("a directory");
-    simulate(&scene(&(text + added)), directory.path(), &mut ()).expect("runs");
-    read_series(directory.path()).expect("written")
+    series_of(&(text + added))
 }
 
 const SWING: &str = "velocity = { kind = \"sine\", amplitude = [0.1], wave_vector = [0.15707963267948966] }\n";
@@ -78,9 +75,7 @@ material = "oil"
 shape = { kind = "sphere", centre = [0.0, 0.0], radius = 1.0 }
 velocity = { kind = "linear", centre = [0.0, 0.0], gradient = [[2.0, 0.0], [0.0, 2.0]] }
 "#;
-    let directory = tempfile::tempdir().expect("a directory");
-    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
-    let torn = read_series(directory.path()).expect("written");
+    let torn = series_of(text);
     let column = |name| torn.column(name).expect("a column");
     let energies = column("kinetic_energy").into_iter().zip(column("affine_energy"));
     let energies: Vec<f64> = energies.map(|(kinetic, affine)| kinetic + affine).collect();
@@ -100,24 +95,11 @@ domain = { lower = [-1.0, -1.0], upper = [2.0, 2.0] }
 grid = { spacing = 0.25 }
 transfer = { kind = "apic" }
 time = { end = 0.05 }
+materials.sand = { law = "drucker-prager", density = 2000.0, young_modulus = 1e6, poisson_ratio = 0.3, friction_angle = 30.0 }
+bodies = [{ name = "heap", material = "sand", shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] }, deformation = 1.05 }]
 output = { interval = 0.05 }
-
-[materials.sand]
-law = "drucker-prager"
-density = 2000.0
-young_modulus = 1e6
-poisson_ratio = 0.3
-friction_angle = 30.0
-
-[[bodies]]
-name = "heap"
-material = "sand"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] }
-deformation = 1.05
 "#;
-    let directory = tempfile::tempdir().expect("a directory");
-    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
-    let rested = read_series(directory.path()).expect("written");
+    let rested = series_of(text);
     for column in ["kinetic_energy", "affine_energy", "strain_energy"] {
         let energy = rested.column(column).expect("a column");
         assert!(energy.iter().all(|energy| *energy < 1e-12), "{column}: {energy:?}");
@@ -179,9 +161,7 @@ velocity = [0.0, -{speed}]
 "#,
             end = 0.5 / speed
         );
-        let directory = tempfile::tempdir().expect("a directory");
-        simulate(&scene(&text), directory.path(), &mut ()).expect("runs");
-        let series = read_series(directory.path()).expect("written");
+        let series = series_of(&text);
         let names = ["kinetic_energy", "affine_energy", "strain_energy", "barrier_energy"];
         let energies: Vec<Vec<f64>> = names.iter().filter_map(|name| series.column(name)).collect();
         let total = |k: usize| energies.iter().map(|energy| energy[k]).sum::<f64>();
@@ -223,31 +203,12 @@ dimension = 2
 gravity = [{}, {}]
 gravity_ramp = 0.4
 
-[domain]
-lower = [0.0, 0.0]
-upper = [6.0, 2.0]
-
-[grid]
-spacing = 0.25
-
-[transfer]
-kind = "apic"
-
-[time]
-end = 1.2
-step = 4e-4
-damping = 20.0
-
-[materials.rubber]
-law = "neo-hookean"
-density = 1000.0
-young_modulus = 1e6
-poisson_ratio = 0.3
-
-[[bodies]]
-name = "block"
-shape = {{ kind = "box", lower = [1.0, 0.5], upper = [2.0, 1.0] }}
-material = "rubber"
+domain = {{ lower = [0.0, 0.0], upper = [6.0, 2.0] }}
+grid = {{ spacing = 0.25 }}
+transfer = {{ kind = "apic" }}
+time = {{ end = 1.2, step = 4e-4, damping = 20.0 }}
+materials.rubber = {{ law = "neo-hookean", density = 1000.0, young_modulus = 1e6, poisson_ratio = 0.3 }}
+bodies = [{{ name = "block", material = "rubber", shape = {{ kind = "box", lower = [1.0, 0.5], upper = [2.0, 1.0] }} }}]
 
 [barrier]
 shapes = [{{ kind = "half-space", point = [0.0, 0.44], normal = [0.0, 1.0] }}]
@@ -264,9 +225,7 @@ series_interval = 0.05
             slope * across,
             -across
         );
-        let directory = tempfile::tempdir().expect("a directory");
-        simulate(&scene(&text), directory.path(), &mut ()).expect("runs");
-        let series = read_series(directory.path()).expect("written");
+        let series = series_of(&text);
         let column = |name| series.column(name).expect("a column").to_vec();
         let (centre, momentum) = (column("centre_x"), column("momentum_x"));
         let last = centre.len() - 1;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use mpm_scenes::Scene;
+use mpm_scenes::output::read_series;
+use mpm_scenes::{Scene, Series, simulate};
 
 /// A bar that swings in its first mode, D = 1.
 pub const BAR: &str = include_str!("../data/bar.toml");
@@ -25,4 +26,11 @@ pub const RUBBER_ON_MESH: &str = include_str!("../data/rubber_on_mesh.toml");
 /// The scene of a text.
 pub fn scene(text: &str) -> Scene {
     Scene::parse(text, Path::new("test.toml")).expect("a good scene")
+}
+
+/// The series of a scene.
+pub fn series_of(text: &str) -> Series {
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene(text), directory.path(), &mut ()).expect("runs");
+    read_series(directory.path()).expect("written")
 }

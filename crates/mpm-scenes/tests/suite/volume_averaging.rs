@@ -11,25 +11,10 @@ domain = { lower = [0.0], upper = [2.0] }
 grid = { spacing = 0.1 }
 transfer = { kind = "apic" }
 time = { end = 20.0, damping = 5.0, step = 0.001 }
-
-[materials.soft]
-law = "neo-hookean"
-density = 1000.0
-young_modulus = 1e5
-poisson_ratio = 0.3
-
-[[bodies]]
-name = "column"
-material = "soft"
-shape = { kind = "box", lower = [0.0], upper = [1.0] }
-
-[[walls]]
-axis = "x"
-side = "lower"
-condition = "slip"
-
-[output]
-interval = 20.0
+materials.soft = { law = "neo-hookean", density = 1000.0, young_modulus = 1e5, poisson_ratio = 0.3 }
+bodies = [{ name = "column", material = "soft", shape = { kind = "box", lower = [0.0], upper = [1.0] } }]
+walls = [{ axis = "x", side = "lower", condition = "slip" }]
+output = { interval = 20.0 }
 "#;
 
 /// A cantilever two cells thick, of a nearly incompressible material.
@@ -42,25 +27,10 @@ domain = { lower = [0.0, 0.0], upper = [5.0, 2.0] }
 grid = { spacing = 0.25 }
 transfer = { kind = "apic" }
 time = { end = 20.0, damping = 2.0, step = 0.0005 }
-
-[materials.soft]
-law = "neo-hookean"
-density = 1000.0
-young_modulus = 1e6
-poisson_ratio = 0.49
-
-[[bodies]]
-name = "beam"
-material = "soft"
-shape = { kind = "box", lower = [0.0, 1.0], upper = [4.0, 1.5] }
-
-[[walls]]
-axis = "x"
-side = "lower"
-condition = "fixed"
-
-[output]
-interval = 20.0
+materials.soft = { law = "neo-hookean", density = 1000.0, young_modulus = 1e6, poisson_ratio = 0.49 }
+bodies = [{ name = "beam", material = "soft", shape = { kind = "box", lower = [0.0, 1.0], upper = [4.0, 1.5] } }]
+walls = [{ axis = "x", side = "lower", condition = "fixed" }]
+output = { interval = 20.0 }
 "#;
 
 /// The last frame of a scene with such averaging.
@@ -132,35 +102,14 @@ domain = { lower = [0.0, 0.0], upper = [1.0, 1.5] }
 grid = { spacing = 0.1 }
 transfer = { kind = "flip", flip_share = 1.0 }
 time = { end = 2.0 }
-
-[materials.water]
-law = "tait-fluid"
-density = 1000.0
-sound_speed = 30.0
-viscosity = 1.0
-
-[[bodies]]
-name = "water"
-material = "water"
-shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] }
-
-[[walls]]
-axis = "x"
-side = "lower"
-condition = "slip"
-
-[[walls]]
-axis = "x"
-side = "upper"
-condition = "slip"
-
-[[walls]]
-axis = "y"
-side = "lower"
-condition = "slip"
-
-[output]
-interval = 2.0
+materials.water = { law = "tait-fluid", density = 1000.0, sound_speed = 30.0, viscosity = 1.0 }
+bodies = [{ name = "water", material = "water", shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] } }]
+walls = [
+    { axis = "x", side = "lower", condition = "slip" },
+    { axis = "x", side = "upper", condition = "slip" },
+    { axis = "y", side = "lower", condition = "slip" },
+]
+output = { interval = 2.0 }
 "#;
 
 /// Particles are sheared by noise, each differently: that must not make ripples of a volume that all have lost. In water nothing else holds particles' volumes against each other; the soft
@@ -168,8 +117,8 @@ interval = 2.0
 #[test]
 fn averaged_changes_leave_what_rests_at_rest() {
     let flip = "kind = \"flip\", flip_share = 1.0";
-    let water = "law = \"tait-fluid\"\ndensity = 1000.0\nsound_speed = 30.0\nviscosity = 1.0";
-    let soft = "law = \"neo-hookean\"\ndensity = 1000.0\nyoung_modulus = 5e3\npoisson_ratio = 0.49";
+    let water = "law = \"tait-fluid\", density = 1000.0, sound_speed = 30.0, viscosity = 1.0";
+    let soft = "law = \"neo-hookean\", density = 1000.0, young_modulus = 5e3, poisson_ratio = 0.49";
     let solid = WATER
         .replace(water, soft)
         .replace("end = 2.0", "end = 2.0, damping = 20.0");
