@@ -23,13 +23,10 @@ const DRAWN: usize = 1000;
 const LOOKS: usize = 48;
 const LEADS: f64 = 200.0;
 
-/// Share of the second moments from which on a shell is worth looking beyond.
-const LEAST: f64 = 0.005;
-
-/// Shells at most: the last is a thousand times as far out as the first.
+/// Shells at most, the last a thousand times as far out as the first; the share of the second moments from which on one is worth looking beyond, and that of the last over that of the first above
+/// which there may be no second moments.
 const MOST_SHELLS: usize = 10;
-
-/// Share of the last shell over that of the first one above which there may be no second moments.
+const LEAST: f64 = 0.005;
 const ENDLESS: f64 = 0.25;
 
 /// Share of what is wanted of a shell that is drawn if it lacks, and draws at least.

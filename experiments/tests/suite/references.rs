@@ -69,6 +69,9 @@ fn errors_beside_a_poor_reference_are_not_stated() {
 fn nothing_is_searched_for_without_a_reference() {
     let study = r#"
         kind = "time-to-equal-error"
+        targets = [RING, { name = "wells-small" }]
+        method = { name = "mpm" }
+        rivals = [{ name = "svgd" }]
         seeds = [0]
         particles = [2000, 40]
         draws = { from = 50, to = 50 }
@@ -76,9 +79,6 @@ fn nothing_is_searched_for_without_a_reference() {
         largest-ratio = 1000.0
         reference-points = 1024
         reference-seed = 1
-        targets = [RING, { name = "wells-small" }]
-        method = { name = "mpm" }
-        rivals = [{ name = "svgd" }]
     "#;
     let Some((_directory, study)) = with_ring(study) else {
         return;

@@ -218,7 +218,6 @@ dimension = 2
 gravity = [0.0, -9.81]
 domain = {{ lower = [0.0, 0.0], upper = [1.0, 0.6] }}
 grid = {{ spacing = 0.04 }}
-transfer = {{ kind = "apic" }}
 time = {{ end = 0.5, courant = {courant} }}
 materials.sand = {{ law = "drucker-prager", density = 1600.0, young_modulus = 1e6, poisson_ratio = 0.3, friction_angle = 30.0 }}
 bodies = [{{ name = "column", material = "sand", shape = {{ kind = "box", lower = [0.0, 0.0], upper = [0.2, 0.4] }} }}]

@@ -56,10 +56,8 @@ flip_share = 1.0
 [time]
 end = 0.2
 
-[materials.water]
-law = "tait-fluid"
-density = 1.0
-sound_speed = 10.0
+[materials]
+water = { law = "tait-fluid", density = 1.0, sound_speed = 10.0 }
 
 [[bodies]]
 name = "water"

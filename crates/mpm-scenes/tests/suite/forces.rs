@@ -62,11 +62,10 @@ fn a_viscous_fluid_that_thins_makes_no_energy() {
     let text = r#"
 title = "spray"
 dimension = 2
+materials.oil = { law = "tait-fluid", density = 1.0, sound_speed = 10.0, viscosity = 5.0 }
 domain = { lower = [-6.0, -6.0], upper = [6.0, 6.0] }
 grid = { spacing = 0.25 }
-transfer = { kind = "apic" }
 time = { end = 2.0 }
-materials.oil = { law = "tait-fluid", density = 1.0, sound_speed = 10.0, viscosity = 5.0 }
 output = { interval = 2.0, series_interval = 0.1 }
 
 [[bodies]]
@@ -91,12 +90,11 @@ fn sand_that_begins_apart_rests() {
     let text = r#"
 title = "loose sand"
 dimension = 2
-domain = { lower = [-1.0, -1.0], upper = [2.0, 2.0] }
-grid = { spacing = 0.25 }
-transfer = { kind = "apic" }
-time = { end = 0.05 }
 materials.sand = { law = "drucker-prager", density = 2000.0, young_modulus = 1e6, poisson_ratio = 0.3, friction_angle = 30.0 }
 bodies = [{ name = "heap", material = "sand", shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] }, deformation = 1.05 }]
+domain = { lower = [-1.0, -1.0], upper = [2.0, 2.0] }
+grid = { spacing = 0.25 }
+time = { end = 0.05 }
 output = { interval = 0.05 }
 "#;
     let rested = series_of(text);

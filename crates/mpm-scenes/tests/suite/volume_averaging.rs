@@ -9,7 +9,6 @@ gravity = [-2.0]
 gravity_ramp = 1.0
 domain = { lower = [0.0], upper = [2.0] }
 grid = { spacing = 0.1 }
-transfer = { kind = "apic" }
 time = { end = 20.0, damping = 5.0, step = 0.001 }
 materials.soft = { law = "neo-hookean", density = 1000.0, young_modulus = 1e5, poisson_ratio = 0.3 }
 bodies = [{ name = "column", material = "soft", shape = { kind = "box", lower = [0.0], upper = [1.0] } }]
@@ -25,7 +24,6 @@ gravity = [0.0, -0.01]
 gravity_ramp = 8.0
 domain = { lower = [0.0, 0.0], upper = [5.0, 2.0] }
 grid = { spacing = 0.25 }
-transfer = { kind = "apic" }
 time = { end = 20.0, damping = 2.0, step = 0.0005 }
 materials.soft = { law = "neo-hookean", density = 1000.0, young_modulus = 1e6, poisson_ratio = 0.49 }
 bodies = [{ name = "beam", material = "soft", shape = { kind = "box", lower = [0.0, 1.0], upper = [4.0, 1.5] } }]
@@ -96,14 +94,14 @@ fn a_nearly_incompressible_cantilever_does_not_lock() {
 const WATER: &str = r#"
 title = "water at rest"
 dimension = 2
+materials.water = { law = "tait-fluid", density = 1000.0, sound_speed = 30.0, viscosity = 1.0 }
+bodies = [{ name = "water", material = "water", shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] } }]
 gravity = [0.0, -10.0]
 gravity_ramp = 0.5
 domain = { lower = [0.0, 0.0], upper = [1.0, 1.5] }
 grid = { spacing = 0.1 }
 transfer = { kind = "flip", flip_share = 1.0 }
 time = { end = 2.0 }
-materials.water = { law = "tait-fluid", density = 1000.0, sound_speed = 30.0, viscosity = 1.0 }
-bodies = [{ name = "water", material = "water", shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 1.0] } }]
 walls = [
     { axis = "x", side = "lower", condition = "slip" },
     { axis = "x", side = "upper", condition = "slip" },
