@@ -5,7 +5,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
-use mpm_document::DocumentError;
+use mpm_document::{DocumentError, Place};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::{Spanned, Table, Value};
@@ -94,7 +94,15 @@ impl Configuration {
         if let Some(threads) = &self.head.threads {
             text = without_key(&text, &threads.span());
         }
-        Ok(mpm_document::parse(&text, Path::new(&self.file))?)
+        let parsed = mpm_document::parse(&text, Path::new(&self.file));
+        parsed.map_err(|mut error| {
+            let field = error.place.as_ref().map(Place::field).unwrap_or_default();
+            if error.message.starts_with(&format!("unknown field `{field}`, expected")) {
+                // A key of the document: what may stand there is what the kind knows, and the keys of the head.
+                error.message += ", `kind`, `threads`";
+            }
+            error.into()
+        })
     }
 
     /// The error for a kind that does not exist.
@@ -200,9 +208,9 @@ mod tests {
     #[test]
     fn mistakes_are_reported_where_they_are() {
         let unknown = message("kind = \"a\"\nparticles = 5\n  particle = 3\n");
-        assert!(
-            unknown.starts_with("c.toml, line 3, column 3: unknown field `particle`"),
-            "{unknown}"
+        assert_eq!(
+            unknown,
+            "c.toml, line 3, column 3: unknown field `particle`, expected `particles`, `kind`, `threads` (in `particle = 3`)"
         );
         let negative = message("kind = \"a\"\nparticles = -5\n");
         assert_eq!(

@@ -29,7 +29,7 @@ fn refused(from: &str, to: &str, parts: &[&str]) {
 fn unknown_keys_and_kinds() {
     for_each_line(
         r#"
-        seeds = [0] | seeds = [0]\ncolour = 3 | study.toml, line 3, column 1 | colour | particles
+        seeds = [0] | seeds = [0]\ncolour = 3 | study.toml, line 3, column 1 | colour | particles | `kind`, `threads` (in
         covariance-spacing | covariance | study.toml, line 1 | `covariance` | quickstart
         kind = "covariance-spacing"\n |  | study.toml | kind
         steps = 3 | step = 3 | study.toml, line 4 | `step` | steps
