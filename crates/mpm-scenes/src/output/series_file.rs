@@ -22,13 +22,26 @@ impl SeriesFile {
         Self::with(directory.join(names::SERIES), Series::new(columns))
     }
 
-    /// Goes on with the first `rows` rows of the file that an earlier process left.
+    /// Goes on with the first `rows` rows of the file that an earlier process left; `number_at` gives the number of the row that belongs to a time.
     ///
     /// # Errors
-    /// [`SimulationError::File`], also for a file with other columns or fewer rows, and [`SimulationError::Series`] for a row among them that is none.
-    pub fn resume(directory: &Path, columns: Vec<String>, rows: usize) -> Result<Self, SimulationError> {
+    /// [`SimulationError::File`], also for a file with other columns or fewer rows, and [`SimulationError::Series`] for a row among them that is none, or at the time of another.
+    pub fn resume(
+        directory: &Path,
+        columns: Vec<String>,
+        rows: usize,
+        number_at: &dyn Fn(f64) -> Option<u64>,
+    ) -> Result<Self, SimulationError> {
         let path = directory.join(names::SERIES);
         let series = read_rows(&path, rows)?;
+        let mut times = (0..).zip(series.rows().iter().map(|row| row[0]));
+        if let Some((number, time)) = times.find(|(number, time)| number_at(*time) != Some(*number)) {
+            return Err(SimulationError::Series {
+                path,
+                line: number as usize + 2,
+                message: format!("time = {time:?} is not that of row {number}; remove the checkpoint to begin again"),
+            });
+        }
         if series.columns() != columns || series.rows().len() < rows {
             let reason = "it is not the series of the checkpoint; remove the checkpoint to begin again";
             return Err(SimulationError::file(&path, std::io::Error::other(reason)));

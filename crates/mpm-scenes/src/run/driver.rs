@@ -49,7 +49,7 @@ impl<'a, const D: usize> Driver<'a, D> {
                 forget_earlier(out)?;
                 SeriesFile::create(out, columns)?
             }
-            Some(saved) => SeriesFile::resume(out, columns, saved.rows)?,
+            Some(saved) => SeriesFile::resume(out, columns, saved.rows, &|time| body.rows.at(time))?,
         };
         let mut driver = Self {
             scene,

@@ -120,6 +120,33 @@ fn a_run_that_was_killed_goes_on_from_its_last_checkpoint() {
     assert!(files(whole.path()) == files(killed.path()));
 }
 
+#[test]
+fn a_row_that_is_cut_out_is_missed() {
+    let scene = scene(BLOCK);
+    let directory = tempfile::tempdir().expect("a directory");
+    let stop = &mut |progress: Progress| break_if(progress.time > 0.1);
+    simulate(&scene, directory.path(), stop).expect("runs");
+    let path = directory.path().join("series.csv");
+    let whole = std::fs::read_to_string(&path).expect("there");
+    // A row that the process wrote after its last checkpoint does not make up for the one that is missing.
+    let without: Vec<&str> = whole
+        .lines()
+        .enumerate()
+        .filter(|(index, _)| *index != 4)
+        .map(|(_, line)| line)
+        .collect();
+    let cut = without.join("\n") + "\n" + whole.lines().last().expect("a row") + "\n";
+    std::fs::write(&path, &cut).expect("writable");
+    let message = simulate(&scene, directory.path(), &mut ())
+        .expect_err("a gap")
+        .to_string();
+    let expected = format!("{}, line 5: time = 0.04 is not that of row 3", path.display());
+    assert!(message.starts_with(&expected), "{message}");
+    assert_eq!(std::fs::read_to_string(&path).expect("there"), cut);
+    std::fs::write(&path, &whole).expect("writable");
+    simulate(&scene, directory.path(), &mut ()).expect("goes on");
+}
+
 /// Up to one end and on to a later one, which is another title's: the files of a run to the later end at once, but for the scene's.
 #[test]
 fn a_run_goes_on_to_a_later_end() {

@@ -7,20 +7,22 @@ fn a_resumed_series_has_the_rows_of_the_checkpoint_to_the_bit() {
     let directory = tempfile::tempdir().expect("a directory");
     let columns = || vec!["time".to_owned(), "a".to_owned()];
     let mut file = SeriesFile::create(directory.path(), columns()).expect("writable");
-    let rows = [[0.0, 0.1 + 0.2], [1e-300, f64::NAN], [0.5, -0.0], [1.0, 1e300]];
+    let rows = [[0.0, 0.1 + 0.2], [0.25, f64::NAN], [0.5, -0.0], [0.75, 1e300]];
+    let number_at = |time: f64| Some((4.0 * time) as u64);
+    let resume = |columns, rows| SeriesFile::resume(directory.path(), columns, rows, &number_at);
     for row in rows {
         file.push(row.to_vec()).expect("writable");
     }
     let path = directory.path().join(names::SERIES);
     let whole = std::fs::read_to_string(&path).expect("there");
     std::fs::write(&path, whole.clone() + "1.5,0.").expect("writable");
-    let mut resumed = SeriesFile::resume(directory.path(), columns(), 3).expect("three rows");
+    let mut resumed = resume(columns(), 3).expect("three rows");
     resumed.push(rows[3].to_vec()).expect("writable");
     assert_eq!(std::fs::read_to_string(&path).expect("there"), whole);
     std::fs::write(&path, whole.clone() + "1.5,\u{0}\n").expect("writable");
-    assert!(SeriesFile::resume(directory.path(), columns(), 4).is_ok());
-    assert!(SeriesFile::resume(directory.path(), columns(), 9).is_err());
-    assert!(SeriesFile::resume(directory.path(), vec!["time".to_owned()], 1).is_err());
+    assert!(resume(columns(), 4).is_ok());
+    assert!(resume(columns(), 9).is_err());
+    assert!(resume(vec!["time".to_owned()], 1).is_err());
 }
 
 #[test]
