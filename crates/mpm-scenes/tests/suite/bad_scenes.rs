@@ -7,9 +7,29 @@ use mpm_scenes::{Population, Scene, SceneFault};
 use super::refusal::assert_refused;
 use super::scenes::BLOCK;
 
+const STRIP: &str = include_str!("../data/strip.toml");
+
 #[test]
 fn errors_name_the_file_the_field_and_the_value() {
     assert_refused(BLOCK, "block.toml", include_str!("../data/block_refused.toml"));
+}
+
+#[test]
+fn momentum_is_kept_by_closed_systems_alone() {
+    let strip = format!("{STRIP}\n[validation]\nreference = \"conservation\"\n");
+    let read = |text: &str| Scene::parse(text, Path::new("strip.toml"));
+    read(&strip).expect("a closed system");
+    let open = [
+        "\n[[walls]]\naxis = \"y\"\nside = \"lower\"\ncondition = \"slip\"\n",
+        "\n[[loads]]\nkind = \"point-force\"\nregion = { kind = \"sphere\", centre = [2.0, 0.5], radius = 0.2 }\nforce = [0.0, -1.0]\n",
+        "\n[[kinematic]]\nregion = { kind = \"sphere\", centre = [2.0, 0.5], radius = 0.2 }\n",
+    ];
+    let damped = strip.replace("end = 0.2", "end = 0.2, damping = 0.1");
+    for text in open.map(|table| format!("{strip}{table}")).iter().chain([&damped]) {
+        let message = read(text).expect_err("momentum is not kept").to_string();
+        let expected = "validation.reference = \"conservation\": must be one for this scene";
+        assert!(message.contains(expected), "{message}");
+    }
 }
 
 #[test]
