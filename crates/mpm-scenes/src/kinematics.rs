@@ -86,7 +86,7 @@ pub(crate) fn prescribes(until: f64, time: f64) -> bool {
     time <= until * (1.0 + 1e-9)
 }
 
-/// The kinematic regions of a scene. At the end of every step their particles take the position and velocity of their region's motion; between, they
+/// The kinematic regions of a scene. As the first step begins and at the end of every step their particles take the position and velocity of their region's motion; between, they
 /// send mass, momentum and stress to the grid like all others.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Kinematics<const D: usize> {

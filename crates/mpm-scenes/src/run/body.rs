@@ -106,6 +106,9 @@ impl<'a, const D: usize> Body<'a, D> {
             displacement: f64::INFINITY,
             friction: self.scene.time.damping,
         };
+        if self.step == 0 {
+            self.prescribe();
+        }
         self.movers.place(self.motion.boundaries_mut(), time);
         let mut taken = 0.0;
         let mut one = |motion: &mut dyn Motion<D>| {
@@ -125,13 +128,18 @@ impl<'a, const D: usize> Body<'a, D> {
         if event - self.motion.time() <= SAME * rest {
             self.motion.set_time(event);
         }
+        self.prescribe();
+        self.step = step;
+        Ok(())
+    }
+
+    /// Gives kinematic particles the position and velocity that they have at this time.
+    fn prescribe(&mut self) {
         let (motion, positions) = (&mut *self.motion, &self.start.positions);
         match &mut self.budget {
             Some(budget) => budget.over_prescription(motion, &self.kinematics, positions),
             None => motion.prescribe(&self.kinematics, positions),
         }
-        self.step = step;
-        Ok(())
     }
 }
 

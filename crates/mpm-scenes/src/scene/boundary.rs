@@ -116,8 +116,8 @@ pub struct HeldTable {
     pub until: Option<f64>,
 }
 
-/// `[[kinematic]]`: particles that are in a region at t = 0 move as one rigid body: at the end of every step they take the position and velocity of
-/// x = c + v t + R(t) (X − c). In the first step they still have the velocity of their body.
+/// `[[kinematic]]`: particles that are in a region at t = 0 move as one rigid body: as the first step begins and at the end of every step they take the position and
+/// velocity of x = c + v t + R(t) (X − c).
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KinematicTable {

@@ -70,6 +70,23 @@ fn kinematic_particles_are_where_their_motion_puts_them_until_they_are_let_go() 
     assert!((held[1] - free[1]).abs() > 1e-3, "{held:?} {free:?}");
 }
 
+/// The grid takes what is free along with what moves, from the first step on.
+#[test]
+fn the_first_step_knows_the_prescribed_velocity() {
+    let half =
+        "\n[[kinematic]]\nregion = { kind = \"box\", lower = [0.0, 0.0], upper = [1.0, 0.5] }\nvelocity = [1.0, 0.0]\n";
+    let one_step = strip(half)
+        .replace("end = 0.2", "end = 0.005")
+        .replace("interval = 0.05", "interval = 0.005");
+    let mut last = Snapshot::default();
+    let effort = frames(&scene(&one_step), &mut |frame| last = frame).expect("runs");
+    assert_eq!(effort.steps, 1);
+    let beside = last.reference_positions.chunks(2).zip(last.velocities.chunks(2));
+    let beside = beside.filter(|(x, _)| x[0] > 1.0).map(|(_, v)| v[0]);
+    let fastest = beside.fold(0.0, f64::max);
+    assert!(fastest > 0.1, "{fastest}");
+}
+
 #[test]
 fn a_region_without_particles_is_an_error_with_its_field() {
     let text = strip(TURNED).replace(
