@@ -8,6 +8,9 @@ const LARGEST: f64 = 1e300;
 /// Values up to this one have no place on a logarithmic axis.
 const LEAST: f64 = 1e-300;
 
+/// An axis shorter than this has no ends to tell apart: densities of values up to [`LARGEST`] are longer.
+const LEAST_SPAN: f64 = 1e-302;
+
 /// The factor between the ends of an axis above which it is better logarithmic.
 const LOGARITHMIC_FROM: f64 = 30.0;
 
@@ -136,7 +139,7 @@ impl Scale {
         }
         let span = high - low;
         let magnitude = low.abs().max(high.abs());
-        let margin = if span <= 1e-11 * magnitude || span < 1e-290 {
+        let margin = if span <= 1e-11 * magnitude || span < LEAST_SPAN {
             if magnitude < 1e-280 { 0.5 } else { 0.1 * magnitude }
         } else {
             padding * span

@@ -12,16 +12,20 @@ use super::{StatisticsError, check_weighted, weighted_quantile};
 /// [`StatisticsError::NoSpread`] if all values with a positive weight are equal, otherwise what is wrong with the values or weights.
 pub fn bandwidth(values: &[f64], weights: Option<&[f64]>) -> Result<f64, StatisticsError> {
     let total = check_weighted("values", values, weights)?;
+    // In units of a power of two, so that squares neither overflow nor vanish and no digit changes.
+    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let unit = largest.log2().floor().max(-1022.0).exp2();
+    let values: &[f64] = &values.iter().map(|value| value / unit).collect::<Vec<_>>();
     let weight = |index: usize| weights.map_or(1.0, |weights| weights[index]) / total;
     let mean: f64 = (0..values.len()).map(|i| weight(i) * values[i]).sum();
     let variance: f64 = (0..values.len()).map(|i| weight(i) * (values[i] - mean).powi(2)).sum();
     let concentration: f64 = (0..values.len()).map(|i| weight(i).powi(2)).sum();
     let size = 1.0 / concentration;
     let deviation = variance.sqrt();
-    if !deviation.is_finite() || deviation <= 1e-12 * mean.abs() || deviation < 1e-250 {
+    if deviation <= 1e-12 * mean.abs() {
         return Err(StatisticsError::NoSpread {
             what: "values",
-            value: mean,
+            value: unit * mean,
         });
     }
     let levels = weighted_quantile(values, weights, &[0.001, 0.25, 0.75, 0.999])?;
@@ -29,7 +33,7 @@ pub fn bandwidth(values: &[f64], weights: Option<&[f64]>) -> Result<f64, Statist
     let scale = if spread > 0.0 { spread.min(deviation) } else { deviation };
     let silverman = 0.9 * scale * size.powf(-0.2);
     let core = (levels[0], levels[3]);
-    Ok(sheather_jones(values, weights, size, core, silverman).unwrap_or(silverman))
+    Ok(unit * sheather_jones(values, weights, size, core, silverman).unwrap_or(silverman))
 }
 
 /// The number of bins of the histogram that the plug-in estimate works on.

@@ -178,6 +178,29 @@ fn degenerate_clouds_are_drawn() {
     }
 }
 
+/// The bars are those of the values in another unit.
+#[test]
+fn histograms_have_bars_at_any_scale() {
+    let bars = |unit: f64| {
+        let scaled: Vec<Vec<f64>> = points(300, 1).iter().map(|x| vec![unit * x[0]]).collect();
+        let svg = histogram_of(PointCloud::equal(&scaled), Reference::None).unwrap();
+        assert_well_formed(&svg);
+        let heights = svg
+            .lines()
+            .filter(|line| line.contains("<rect") && line.contains("fill-opacity"));
+        let of = |line: &str| {
+            line.split_once(" height=\"")
+                .map(|(_, rest)| rest.split('"').next().map(str::to_owned))
+        };
+        heights.map(of).collect::<Vec<_>>()
+    };
+    let plain = bars(1.0);
+    assert!(plain.len() > 8);
+    for exponent in [-970, -700, 700, 970, 990] {
+        assert_eq!(bars(2f64.powi(exponent)), plain, "{exponent}");
+    }
+}
+
 #[test]
 fn particles_outside_the_axes_and_left_out_are_counted() {
     let mut particles = points(5000, 2);

@@ -51,3 +51,15 @@ fn no_width_is_above_that_of_silvermans_rule() {
     let width = bandwidth(&points, None).unwrap();
     assert!((0.8..1.0001).contains(&(width / silverman)), "{width}");
 }
+
+#[test]
+fn the_unit_of_the_values_is_that_of_the_width() {
+    let points = normal_points(200, 0.5, 1.0);
+    let width = bandwidth(&points, None).unwrap();
+    for exponent in [-1000, -700, 700, 1000] {
+        let unit = 2f64.powi(exponent);
+        let scaled: Vec<f64> = points.iter().map(|x| unit * x).collect();
+        assert_eq!(bandwidth(&scaled, None), Ok(unit * width), "{exponent}");
+    }
+    assert!(bandwidth(&[0.0; 3], None).is_err() && bandwidth(&[1e300; 3], None).is_err());
+}
