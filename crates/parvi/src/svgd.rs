@@ -21,7 +21,7 @@ sampler! {
     /// At the end log p is evaluated at the particles, where it is known: if it is not finite at some of them, [`Samples::certificate`] says so, and there is none otherwise.
     ///
     /// # Errors
-    /// [`SampleError`]: an option out of range, a score that is not finite, or the observer's stop.
+    /// [`SampleError`]: an option out of range, a score or positions that are not finite, or the observer's stop.
     SvgdOptions => Self::run
 }
 
@@ -44,6 +44,7 @@ impl SvgdOptions {
             index::sample(&mut generator, positions.len(), positions.len().min(MEDIAN_SAMPLE)).into_vec()
         };
         let to_target = |z: &[f64; D]| frame.to_target(z);
+        let in_target = |positions: &[[f64; D]], step| finite(positions.iter().map(to_target).collect(), step);
         let seen_after = |step: usize| Moment {
             step,
             steps,
@@ -58,6 +59,8 @@ impl SvgdOptions {
             let bandwidth = self.bandwidth.unwrap_or_else(|| median_bandwidth(&positions, &sample));
             let directions = stein_directions(&positions, &scores, bandwidth);
             let moved = adam.step(&mut positions, &directions);
+            // Where there is no place there is no score either, which is not the target's fault.
+            in_target(&positions, step)?;
             if self.trace_every > 0 && (step % self.trace_every == 0 || step == 1) {
                 trace.push(TracePoint {
                     step,
@@ -74,7 +77,7 @@ impl SvgdOptions {
                 return Err(SampleError::Interrupted { step });
             }
         }
-        let positions = finite(positions.iter().map(to_target).collect(), steps)?;
+        let positions = in_target(&positions, steps)?;
         let (certificate, density_evaluations) = if target.has_log_density() {
             let mut log_densities = vec![0.0; positions.len()];
             log_densities_in_calls(target, &positions, &mut log_densities);

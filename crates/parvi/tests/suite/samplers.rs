@@ -103,6 +103,23 @@ fn residual_of_independent_draws_is_about_one() {
     assert!((total - 1.0).abs() < 0.1, "{total}");
 }
 
+#[test]
+fn particles_that_are_nowhere_are_not_blamed_on_the_score() {
+    let options = SvgdOptions {
+        step_size: 1e200,
+        ..SvgdOptions::default()
+    };
+    let error = options
+        .sample(
+            &Gaussian::<2>::standard(),
+            &Frame::identity(),
+            &Run::new(20, 1),
+            &mut Silent,
+        )
+        .expect_err("no end");
+    assert!(matches!(error, SampleError::Diverged { step: 2, .. }), "{error}");
+}
+
 struct Broken;
 
 impl Target<2> for Broken {
