@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use mpm_tensor::Matrix;
+use mpm_tensor::{Matrix, vector};
 use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Report, Round, explore};
 use parvi_targets::Frame;
 use rand::RngExt;
@@ -229,7 +229,9 @@ fn surveyed<const D: usize>(
 fn start_law<const D: usize>(run: &Run, frame: &Frame<D>) -> Result<Option<Mixture<D>>, SampleError> {
     run.given.check::<D>(run.particles)?;
     let (centre, factor) = if let Some(positions) = run.given.positions_in(frame) {
-        let law = Frame::of_points(&positions, None).map_err(|_| SampleError::StartWithoutSpread)?;
+        let law = Frame::of_points(&positions, None).ok();
+        let law = law.filter(|law| spreads(law, positions.len()));
+        let law = law.ok_or(SampleError::StartWithoutSpread)?;
         (*law.centre(), *law.factor())
     } else if run.start == Start::default() {
         return Ok(None);
@@ -238,4 +240,14 @@ fn start_law<const D: usize>(run: &Run, frame: &Frame<D>) -> Result<Option<Mixtu
     };
     let share = 1.0;
     Ok(Mixture::new(vec![Kernel { centre, factor, share }]))
+}
+
+/// Whether the law of so many points spreads along every direction, beyond what rounding leaves of points in a plane: the share of a variance that the axes before do not explain, and the
+/// deviation beside the mean.
+fn spreads<const D: usize>(law: &Frame<D>, points: usize) -> bool {
+    let rows = law.factor().0;
+    (0..D).all(|a| {
+        let deviation = vector::norm(&rows[a]);
+        rows[a][a] > 1e-6 * deviation && deviation > points as f64 * f64::EPSILON * law.centre()[a].abs()
+    })
 }

@@ -72,11 +72,16 @@ fn given_positions_are_a_first_proposal() {
             assert!((own - mean).abs() < 0.05 * deviation, "x{}: {own}", axis + 1);
         }
     }
-    run.given = GivenParticles::at(&[[1.0, 2.0]; 200]);
-    let error = MpmOptions::default()
-        .sample(&target, &frame, &run, &mut Silent)
-        .expect_err("no spread");
-    assert_eq!(error, SampleError::StartWithoutSpread);
+    // Rounding makes a spread of its own: of a mean that is no value of the points, and across a plane.
+    let on_a_line = |n: u32| [0.1 + 0.7 * f64::from(n).sin(), 0.2 + 1.1 * f64::from(n).sin()];
+    let of = |place: &dyn Fn(u32) -> [f64; 2]| (0..200).map(place).collect::<Vec<_>>();
+    for positions in [of(&|_| [1.0, 2.0]), of(&|n| [0.1, f64::from(n)]), of(&on_a_line)] {
+        run.given = GivenParticles::at(&positions);
+        let error = MpmOptions::default()
+            .sample(&target, &frame, &run, &mut Silent)
+            .expect_err("no spread");
+        assert_eq!(error, SampleError::StartWithoutSpread);
+    }
 }
 
 /// The pool as it is: the same one, judged for as many particles, and nearer to the target than these.
