@@ -20,5 +20,6 @@ mod scaling;
 pub use cholesky::{Cholesky, NotPositiveDefinite};
 pub use matrix::Matrix;
 pub use polar::Polar;
+pub use scaling::power_of_two;
 pub use singular_values::SingularValues;
 pub use symmetric_eigen::SymmetricEigen;

@@ -195,6 +195,17 @@ mod tests {
         assert!(condense(&Measure::new(points, vec![0.0; 100]), 40, 0.5).is_empty());
     }
 
+    #[test]
+    fn particles_have_the_unit_of_the_points() {
+        let points: Vec<[f64; 2]> = (0..100).map(|i| [f64::from(i).sin(), f64::from(3 * i).cos()]).collect();
+        let of = |unit: f64| {
+            let points = points.iter().map(|x| x.map(|c| unit * c)).collect();
+            let particles = condense(&Measure::new(points, vec![0.01; 100]), 10, 0.5);
+            particles.into_iter().map(|x| x.map(|c| c / unit)).collect::<Vec<_>>()
+        };
+        assert_eq!(of(2f64.powi(-700)), of(1.0));
+    }
+
     /// Marginals of N(0, I) in bins of equal mass.
     #[test]
     fn cuts_leave_no_layers() {

@@ -1,6 +1,6 @@
 //! The affine map between a target's coordinates and coordinates of unit scale.
 
-use mpm_tensor::{Cholesky, Matrix, vector};
+use mpm_tensor::{Cholesky, Matrix, power_of_two, vector};
 
 use crate::TargetError;
 use crate::error::{finite, positive};
@@ -48,15 +48,23 @@ impl<const D: usize> Frame<D> {
             });
         }
         let weight = |p: usize| weights.map_or(1.0 / points.len() as f64, |weights| weights[p]);
+        // In units of powers of two, which round nothing: squares of large coordinates overflow, those of small ones vanish.
+        let unit = |a: usize| power_of_two(points.iter().fold(0.0, |largest, x| x[a].abs().max(largest)));
+        let units: [f64; D] = std::array::from_fn(unit);
+        let in_units = |x: &[f64; D]| -> [f64; D] { std::array::from_fn(|a| x[a] / units[a]) };
         let mut mean = [0.0; D];
         for (p, x) in points.iter().enumerate() {
-            vector::accumulate(&mut mean, weight(p), x);
+            vector::accumulate(&mut mean, weight(p), &in_units(x));
         }
         let covariance = points.iter().enumerate().fold(Matrix::<D>::ZERO, |sum, (p, x)| {
-            let x = vector::subtract(x, &mean);
+            let x = vector::subtract(&in_units(x), &mean);
             sum + Matrix::outer(&x, &x) * weight(p)
         });
-        Self::new(mean, covariance.symmetric_part())
+        let scaled = Self::new(mean, covariance.symmetric_part())?;
+        Ok(Self {
+            centre: std::array::from_fn(|a| units[a] * scaled.centre[a]),
+            factor: Matrix::from_fn(|i, j| units[i] * scaled.factor.0[i][j]),
+        })
     }
 
     /// The frame of a diagonal covariance, given by its standard deviations.

@@ -1,6 +1,6 @@
 //! Support points: the few points with the least energy distance to a big sample.
 
-use mpm_tensor::vector;
+use mpm_tensor::{power_of_two, vector};
 
 use crate::PointSetError;
 use crate::point_set_error::check_finite;
@@ -44,16 +44,22 @@ pub fn support_points<const D: usize>(
     iterations: usize,
     tolerance: f64,
 ) -> Result<SupportPoints<D>, PointSetError> {
-    let procedure = ConvexConcave::new(sample)?;
+    check_finite("sample point", sample)?;
+    check_start(start)?;
     check_tolerance(tolerance)?;
-    let mut positions = checked_start(start)?;
+    // In units of a power of two, which rounds nothing: squares of small coordinates vanish.
+    let coordinates = sample.iter().chain(start).flatten();
+    let unit = power_of_two(coordinates.fold(0.0, |largest, c| c.abs().max(largest)));
+    let in_units = |points: &[[f64; D]]| points.iter().map(|x| x.map(|c| c / unit)).collect::<Vec<_>>();
+    let procedure = ConvexConcave::new(&in_units(sample))?;
+    let mut positions = in_units(start);
     let (mut taken, mut displacement) = (0, f64::INFINITY);
     while taken < iterations && displacement > tolerance {
         displacement = procedure.iterate(&mut positions);
         taken += 1;
     }
     Ok(SupportPoints {
-        positions,
+        positions: positions.iter().map(|x| x.map(|c| c * unit)).collect(),
         iterations: taken,
         displacement,
     })
@@ -68,13 +74,12 @@ pub(crate) fn check_tolerance(tolerance: f64) -> Result<(), PointSetError> {
     }
 }
 
-/// A copy of the start, if points can begin there.
-fn checked_start<const D: usize>(start: &[[f64; D]]) -> Result<Vec<[f64; D]>, PointSetError> {
+/// Whether points can begin there.
+fn check_start<const D: usize>(start: &[[f64; D]]) -> Result<(), PointSetError> {
     if start.is_empty() {
         return Err(PointSetError::Empty { field: "the start" });
     }
-    check_finite("start", start)?;
-    Ok(start.to_vec())
+    check_finite("start", start)
 }
 
 /// The convex–concave procedure against one sample.

@@ -95,6 +95,19 @@ fn messages_count_axes_from_one() {
 }
 
 #[test]
+fn the_frame_of_points_has_their_units() {
+    let points = [[0.0, 1.0], [2.0, 0.5], [-1.0, 3.0]];
+    let frame = Frame::of_points(&points, None).unwrap();
+    let units = [2f64.powi(-700), 2f64.powi(700)];
+    let in_units = |x: &[f64; 2]| [x[0] * units[0], x[1] * units[1]];
+    let scaled = Frame::of_points(&points.map(|x| in_units(&x)), None).unwrap();
+    assert_eq!(*scaled.centre(), in_units(frame.centre()));
+    for axis in 0..2 {
+        assert_eq!(scaled.factor().0[axis], frame.factor().0[axis].map(|c| c * units[axis]));
+    }
+}
+
+#[test]
 fn bad_frames_are_refused() {
     let covariance = |a, b, c, d| Frame::new([0.0; 2], Matrix([[a, b], [c, d]])).unwrap_err();
     assert!(matches!(

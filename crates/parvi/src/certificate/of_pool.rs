@@ -1,5 +1,6 @@
 //! The verdict of the weights.
 
+use mpm_tensor::power_of_two;
 use parvi_pool::{Estimate, Objection, Pool};
 
 use super::{Certificate, Doubt, EstimatedMoment, MomentEstimate, Outcome, doubt_of_moments};
@@ -71,10 +72,4 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> V
         }
     };
     (0..D).map(of_axis).collect()
-}
-
-/// The power of two below a number above 0, near enough for units; 1 of what is no such number.
-fn power_of_two(size: f64) -> f64 {
-    let unit = size.log2().floor().exp2();
-    if unit.is_normal() { unit } else { 1.0 }
 }

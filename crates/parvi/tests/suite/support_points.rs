@@ -136,6 +136,18 @@ fn iterations_end_at_the_tolerance_or_at_the_limit() {
 }
 
 #[test]
+fn the_unit_of_the_sample_is_that_of_the_points() {
+    let (sample, start) = (draws::<2>(500, 1), draws::<2>(10, 2));
+    let plain = support_points(&sample, &start, 20, 0.0).expect("points").positions;
+    for exponent in [-700, 400] {
+        let unit = 2f64.powi(exponent);
+        let scaled = |points: &[[f64; 2]]| points.iter().map(|x| x.map(|c| unit * c)).collect::<Vec<_>>();
+        let moved = support_points(&scaled(&sample), &scaled(&start), 20, 0.0).expect("points");
+        assert_eq!(moved.positions, scaled(&plain), "{exponent}");
+    }
+}
+
+#[test]
 fn bad_input_is_named() {
     let points = [[0.0, 1.0], [1.0, 3.0]];
     let error = support_points::<2>(&[], &points, 1, 0.0).expect_err("no sample");
