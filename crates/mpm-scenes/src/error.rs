@@ -118,7 +118,7 @@ pub enum SceneFault {
         normal: Vec<f64>,
     },
     /// A body begins at or inside something rigid.
-    #[error("bodies.{body}: particle {particle} at {position:?} begins inside {table}, {depth} below its surface")]
+    #[error("bodies.{body}: particle {particle} at {position:?} begins inside {table}, {depth:?} below its surface")]
     InsideRigid {
         /// The body.
         body: String,
@@ -150,7 +150,7 @@ pub enum SceneFault {
     TwoBackgrounds,
     /// The Courant condition asks for so short a step that the end is out of reach.
     #[error(
-        "bodies.{body} has the {cause}, with which the Courant condition allows steps of {step:e} at the start; 1e9 of them do not reach time.end = {end}"
+        "bodies.{body} has the {cause}, with which the Courant condition allows steps of {step:e} at the start; 1e9 of them do not reach time.end = {end:?}"
     )]
     TooManySteps {
         /// The body that asks for it.
@@ -163,7 +163,7 @@ pub enum SceneFault {
         end: f64,
     },
     /// The time step asked for is longer than the Courant condition allows at the start.
-    #[error("time.step = {step}: must be at most {limit}, the Courant number {courant} times h / (c + max |v|)")]
+    #[error("time.step = {step:?}: must be at most {limit:?}, the Courant number {courant:?} times h / (c + max |v|)")]
     TimeStep {
         /// `time.step`.
         step: f64,

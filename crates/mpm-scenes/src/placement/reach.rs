@@ -78,7 +78,7 @@ impl<'a, const D: usize> Nodes<'a, D> {
         match self {
             Self::Grid { spacing, domain, .. } => {
                 let Bounds { lower, upper } = domain;
-                format!("the grid of spacing {spacing} on the domain {lower:?} to {upper:?}")
+                format!("the grid of spacing {spacing:?} on the domain {lower:?} to {upper:?}")
             }
             Self::Mesh { room, .. } => {
                 let Bounds { lower, upper } = room;

@@ -65,7 +65,7 @@ pub enum SimulationError {
     },
     /// A particle has passed the surface of a rigid shape that a barrier should keep it from.
     #[error(
-        "step {step} at t = {time}: {}particle {particle} is at distance {distance} from a rigid shape of the barrier",
+        "step {step} at t = {time}: {}particle {particle} is at distance {distance:?} from a rigid shape of the barrier",
         of_body(body.as_ref())
     )]
     Penetration {

@@ -42,7 +42,7 @@ pub fn earlier_end(saved: &Saved, scene: &Scene, mesh_contents: Option<u64>) -> 
         return Err(another(&format!("`{key}` differs")));
     }
     if scene.time.end < end {
-        return Err(another(&format!("its time.end = {end} is later")));
+        return Err(another(&format!("its time.end = {end:?} is later")));
     }
     same_mesh.map(|()| end)
 }

@@ -88,7 +88,7 @@ impl Scene {
         positive("time.end", time.end)?;
         check(time.step, "time.step", positive)?;
         let reaches = time.step.is_none_or(|step| time.end <= MOST_STEPS * step);
-        let expected = format!("so long that 1e9 steps reach time.end = {}", time.end);
+        let expected = format!("so long that 1e9 steps reach time.end = {:?}", time.end);
         within("time.step", time.step, reaches, &expected)?;
         let courant = time.courant > 0.0 && time.courant <= 1.0;
         within("time.courant", time.courant, courant, "above 0 and at most 1")?;
