@@ -6,7 +6,7 @@ use mpm_scenes::{SceneError, SimulationError};
 use super::Experiment;
 use crate::deformation_map::DeformationMapError;
 use crate::encoder::EncoderError;
-use crate::full_order::FullOrderError;
+use crate::full_order::{FullOrderError, named};
 use crate::online::OnlineError;
 use crate::tensor_file::TensorFileError;
 use crate::training::TrainingError;
@@ -55,7 +55,9 @@ pub enum ExperimentError {
         model: String,
     },
     /// The directory holds another experiment.
-    #[error("{directory} holds another experiment, left untouched: choose another directory")]
+    #[error(
+        "{directory} holds another experiment, left untouched: choose another directory, or remove this one to begin again"
+    )]
     Occupied {
         /// The directory.
         directory: String,
@@ -108,9 +110,17 @@ pub enum ExperimentError {
     /// The full-order runs.
     #[error(transparent)]
     FullOrder(#[from] FullOrderError),
-    /// The training.
+    /// A training that cannot begin or go on.
     #[error(transparent)]
     Training(#[from] TrainingError),
+    /// A training that ended before its last epoch.
+    #[error("the network of {directory}: {source}")]
+    Network {
+        /// Its directory.
+        directory: String,
+        /// Why.
+        source: Box<TrainingError>,
+    },
     /// The encoder.
     #[error(transparent)]
     Encoder(#[from] EncoderError),
@@ -128,11 +138,9 @@ pub enum ExperimentError {
 impl ExperimentError {
     /// A full-order run of a test case went wrong.
     pub(super) fn of_test_case(experiment: &Experiment, case: usize, source: FullOrderError) -> Self {
-        let values = experiment.parameters.iter().zip(&experiment.cases.test[case]);
-        let values: Vec<String> = values.map(|(name, value)| format!("{name} = {value:?}")).collect();
         Self::TestCase {
             case,
-            values: values.join(", "),
+            values: named(&experiment.parameters, &experiment.cases.test[case]),
             source: Box::new(source),
         }
     }

@@ -15,6 +15,16 @@ pub enum FullOrderError {
         /// Runs done.
         runs: usize,
     },
+    /// One of several runs failed.
+    #[error("run {run} ({values}): {source}")]
+    Run {
+        /// The run, counted from 0.
+        run: usize,
+        /// Its parameters and their values.
+        values: String,
+        /// What went wrong.
+        source: Box<Self>,
+    },
     /// The file cannot be read.
     #[error("{file}: {source}")]
     Unreadable {

@@ -41,8 +41,8 @@ pub struct Kept {
 /// `after_run` is told the number of runs done; a break ends them.
 ///
 /// # Errors
-/// [`FullOrderError::Stopped`] after a break; [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case, a run that
-/// fails, snapshots that hold what they must not.
+/// [`FullOrderError::Stopped`] after a break; [`FullOrderError::Run`] for a run that fails; [`FullOrderError`]: a change that does not fit the document, a scene that cannot be run or that has another body than that of the first case,
+/// snapshots that hold what they must not.
 pub fn collect<const D: usize>(
     document: &SceneDocument,
     parameters: &[String],
@@ -58,7 +58,12 @@ pub fn collect<const D: usize>(
         if *first != own {
             return Err(FullOrderError::AnotherBody { run: number });
         }
-        let (frames, _) = own.run_in_even_steps(&scene)?;
+        let run = own.run_in_even_steps(&scene);
+        let (frames, _) = run.map_err(|source| FullOrderError::Run {
+            run: number,
+            values: named(parameters, &case.parameters),
+            source: Box::new(source),
+        })?;
         let parameters = case.parameters.clone();
         runs.push(Run { parameters, frames });
         if after_run(runs.len()).is_break() && runs.len() < cases.len() {
@@ -67,6 +72,13 @@ pub fn collect<const D: usize>(
     }
     let recording = recording.ok_or(FullOrderError::NoRuns)?;
     Ok(Snapshots::new(recording.body, runs)?)
+}
+
+/// Parameters with their values.
+pub(crate) fn named(parameters: &[String], values: &[f64]) -> String {
+    let pairs = parameters.iter().zip(values);
+    let pairs: Vec<String> = pairs.map(|(name, value)| format!("{name} = {value:?}")).collect();
+    pairs.join(", ")
 }
 
 /// What all runs of a scene share: its points, relative to their mean.

@@ -298,7 +298,7 @@ fn runs_whose_steps_are_cut_are_refused() {
         std::fs::write(&scene, SCENE.replace(old, new)).expect("written");
         let error = train::<2>(&experiment, &out, &mut ()).expect_err(new).to_string();
         let expected = format!(
-            "{}: {found} time steps, where time.step = 0.0050000001 makes {expected}",
+            "run 0 (gravity = 1.0, angle = 0.0): {}: {found} time steps, where time.step = 0.0050000001 makes {expected}",
             scene.display()
         );
         assert!(error.starts_with(&expected), "{error}");
