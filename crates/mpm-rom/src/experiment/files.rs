@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use mpm_scenes::output::write_whole;
+use serde::Deserialize;
+use toml::Spanned;
 
 use super::{Cases, Experiment, ExperimentError};
 
 /// Names of the files.
 pub mod names {
-    /// The experiment's file as it was trained.
+    /// The experiment's file as it was trained or run last.
     pub const CONFIG: &str = "config.toml";
     /// The scene's file as the training runs were made of it.
     pub const SCENE: &str = "scene.toml";
@@ -29,30 +31,66 @@ pub mod names {
 }
 
 impl Experiment {
-    /// Takes a directory for this experiment, which may hold a part of it. What the training does not hang on may have changed since: title, test cases and reduced runs.
+    /// Takes a directory for this experiment, which may hold a part of it. What the training does not hang on may have changed since: title, test cases and reduced runs. So may the networks where none has a state yet, and
+    /// everything where there are no data either.
     pub(super) fn occupy(&self, directory: &Path) -> Result<(), ExperimentError> {
         std::fs::create_dir_all(directory).map_err(|source| ExperimentError::file("create", directory, source))?;
         let file = directory.join(names::CONFIG);
-        if !file.exists() {
-            return write(&file, &self.text);
+        if file.exists() && !holds_no_more_than(directory, &[names::CONFIG])? {
+            let of_data = [names::CONFIG, names::SCENE, names::TRAINING_DATA];
+            let is_untrained = holds_no_more_than(directory, &of_data)?;
+            let before = Self::read(&file).map(|before| {
+                let networks = if is_untrained { self } else { &before };
+                Self {
+                    title: self.title.clone(),
+                    cases: Cases {
+                        train: before.cases.train.clone(),
+                        ..self.cases.clone()
+                    },
+                    run: self.run.clone(),
+                    training: networks.training.clone(),
+                    variants: networks.variants.clone(),
+                    starts: networks.starts,
+                    file: self.file.clone(),
+                    text: self.text.clone(),
+                    ..before
+                }
+            });
+            if !before.is_ok_and(|before| before == *self) {
+                return Err(ExperimentError::Occupied {
+                    directory: directory.display().to_string(),
+                });
+            }
         }
-        let before = Self::read(&file).map(|before| Self {
-            title: self.title.clone(),
-            cases: Cases {
-                train: before.cases.train,
-                ..self.cases.clone()
-            },
-            run: self.run.clone(),
-            file: self.file.clone(),
-            text: self.text.clone(),
-            ..before
-        });
-        match before {
-            Ok(before) if before == *self => Ok(()),
-            _ => Err(ExperimentError::Occupied {
-                directory: directory.display().to_string(),
-            }),
+        write(&file, &titled(&self.text, &self.title))
+    }
+}
+
+/// Whether a directory has nothing but files of these names.
+fn holds_no_more_than(directory: &Path, names: &[&str]) -> Result<bool, ExperimentError> {
+    let of = |source| ExperimentError::file("read", directory, source);
+    for entry in std::fs::read_dir(directory).map_err(of)? {
+        let name = entry.map_err(of)?.file_name();
+        if !names.iter().any(|known| name == **known) {
+            return Ok(false);
         }
+    }
+    Ok(true)
+}
+
+/// The text of an experiment with this title, which may be that of other runs of it.
+fn titled(text: &str, title: &str) -> String {
+    #[derive(Deserialize)]
+    struct Head {
+        title: Spanned<String>,
+    }
+    match toml::from_str::<Head>(text) {
+        Ok(head) if head.title.get_ref() != title => {
+            let place = head.title.span();
+            let title = toml::Value::from(title).to_string();
+            [&text[..place.start], &title, &text[place.end..]].concat()
+        }
+        _ => text.to_owned(),
     }
 }
 

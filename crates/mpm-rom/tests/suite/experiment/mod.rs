@@ -152,6 +152,41 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
 }
 
 #[test]
+fn what_a_failed_training_left_may_be_trained_otherwise() {
+    let (directory, file) = files();
+    let out = directory.path().join("out");
+    let parse = |text: &str| Experiment::parse(text, &file).expect("sound");
+    let changed = |from: &str, to: &str| {
+        assert!(EXPERIMENT.contains(from), "{from}");
+        parse(&EXPERIMENT.replace(from, to))
+    };
+    // Runs that fail leave no data.
+    let error = train::<2>(&changed("[1.0, 0.0]", "[1e12, 0.0]"), &out, &mut ()).expect_err("too heavy");
+    let expected = "run 0 (gravity = 1000000000000.0, angle = 0.0): ";
+    assert!(error.to_string().starts_with(expected), "{error}");
+    // A network that diverges leaves them as they are.
+    let wild = changed("epochs = 7", "epochs = 7, initial_rate = 1e300");
+    let error = train::<2>(&wild, &out, &mut ()).expect_err("diverges").to_string();
+    let expected = format!("the network of {}: epoch 0, step ", out.display());
+    assert!(error.starts_with(&expected), "{error}");
+    let error = train::<2>(&changed("[1.0, 0.0]", "[1.5, 0.0]"), &out, &mut ()).expect_err("other data");
+    assert!(
+        error.to_string().ends_with("or remove this one to begin again"),
+        "{error}"
+    );
+    train_one(&parse(EXPERIMENT), &out);
+    let config = || std::fs::read_to_string(out.join(names::CONFIG)).expect("written");
+    assert_eq!(config(), EXPERIMENT);
+    // Its runs have a title of their own.
+    let renamed = parse(&EXPERIMENT.replacen("title = \"", "title = \"Again: ", 1));
+    run::<2>(&renamed, &out, &mut |_, _| true).expect("run");
+    assert_eq!(
+        Experiment::read(&out.join(names::CONFIG)).expect("sound").title,
+        renamed.title
+    );
+}
+
+#[test]
 fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
     let (directory, file) = files();
     let fine = SCENE

@@ -55,6 +55,8 @@ fn everything_but_title_test_cases_and_runs_is_that_of_the_other_file() {
     train_one(&more, &anew);
     let config = |directory: &Path| std::fs::read_to_string(directory.join(names::CONFIG)).expect("written");
     assert_eq!(config(&anew), config(&results));
+    let titled = Experiment::read(&anew.join(names::CONFIG)).expect("sound");
+    assert_eq!(titled.title, more.title);
 }
 
 #[test]
