@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = Instant::now();
     trainer.train(None, &mut observer)?;
     let seconds = start.elapsed().as_secs_f64();
-    let model = trainer.model()?;
+    let model = trainer.model();
     let (fit, generalisation) = (
         model.reconstruction_error(&training)?,
         model.reconstruction_error(&unseen)?,

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         coordinates: 1,
         ..Training::default()
     };
-    let model = Trainer::new(&snapshots, one)?.model()?;
+    let model = Trainer::new(&snapshots, one)?.model();
     let points: Vec<_> = snapshots.reference().iter().copied().cycle().take(10_000).collect();
     let mut out = Evaluation::default();
     let mut evaluate = |gradients, jacobians| {

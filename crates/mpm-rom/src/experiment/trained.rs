@@ -101,7 +101,7 @@ pub(super) fn train_network<const D: usize>(
     if epochs < training.epochs {
         return Err(ExperimentError::Stopped);
     }
-    let model = trainer.model()?;
+    let model = trainer.model();
     model.write(&directory.join(names::MODEL))?;
     Ok(Trained {
         name: String::new(),

@@ -115,10 +115,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
     }
 
     /// The model with the best parameters so far, or those of the start.
-    ///
-    /// # Errors
-    /// [`TrainingError::Network`], [`TrainingError::Encoder`] never occur.
-    pub fn model(&self) -> Result<Model<D>, TrainingError> {
+    pub fn model(&self) -> Model<D> {
         let (mut network, mut encoder) = (self.network.clone(), self.encoder.clone());
         if let Some(best) = &self.best {
             network.parameters_mut().copy_from_slice(&best.network);
@@ -130,7 +127,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             best: self.best.as_ref().map(|best| best.report),
             training: self.config.clone(),
         };
-        Ok(Model::new(network, encoder, summary))
+        Model::new(network, encoder, summary)
     }
 
     /// All pairs (run, frame).

@@ -50,11 +50,7 @@ fn resumed_and_whole(optimizer: Optimizer) {
         assert_eq!(resumed.history().len() as u64, last + 1);
         resumed.train(None, &mut ()).unwrap();
         assert_eq!(resumed.history(), whole.history());
-        assert_eq!(
-            resumed.model().unwrap(),
-            whole.model().unwrap(),
-            "stopped after epoch {last}"
-        );
+        assert_eq!(resumed.model(), whole.model(), "stopped after epoch {last}");
     }
 }
 
@@ -66,7 +62,7 @@ fn the_number_of_threads_does_not_matter() {
         pool.install(|| {
             let mut trainer = Trainer::new(&snapshots, config.clone()).unwrap();
             trainer.train(None, &mut ()).unwrap();
-            trainer.model().unwrap()
+            trainer.model()
         })
     };
     assert_eq!(on(1), on(3));
@@ -143,6 +139,6 @@ fn unseen_runs_are_reproduced() {
     };
     let mut trainer = Trainer::new(&seen, config).unwrap();
     trainer.train(None, &mut ()).unwrap();
-    let error = trainer.model().unwrap().reconstruction_error(&unseen).unwrap();
+    let error = trainer.model().reconstruction_error(&unseen).unwrap();
     assert!(error < 1.0, "{error} %");
 }
