@@ -5,6 +5,7 @@
 #[path = "../tests/suite/common.rs"]
 mod common;
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use mpm_rom::manifold::{Evaluation, Manifold, Wanted};
@@ -53,7 +54,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let samples = (30 * points) as f64;
         let trained = least(|| {
             let mut trainer = Trainer::new(&snapshots, config.clone()).ok();
-            let _ = trainer.as_mut().map(|trainer| trainer.train(None, &mut ()));
+            let _ = trainer
+                .as_mut()
+                .map(|trainer| trainer.train(None, &mut |_| ControlFlow::Continue(())));
         });
         println!(
             "step with {points:4} points of a frame          {:8.2} ms / 10⁴ points, {:.2} ms / 16 frames",

@@ -91,7 +91,7 @@ pub(super) fn train_network<const D: usize>(
         Trainer::new(snapshots, training.clone())?
     };
     let resumed_at = trainer.history().len() as u64;
-    let trained = trainer.train(Some(&checkpoint), &mut |report: &EpochReport| watch.after_epoch(report));
+    let trained = trainer.train(Some(&checkpoint), &mut |report| watch.after_epoch(report));
     trained.map_err(|source| ExperimentError::Network {
         directory: directory.display().to_string(),
         source: Box::new(source),

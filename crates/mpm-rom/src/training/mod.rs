@@ -20,13 +20,13 @@ mod checkpoint;
 mod config;
 mod error;
 mod loss;
-mod observer;
 mod optimizer;
+mod report;
 mod trainer;
 
 pub use config::Training;
 pub use error::TrainingError;
 pub use loss::Terms;
-pub use observer::{EpochReport, Observer};
 pub use optimizer::Optimizer;
+pub use report::EpochReport;
 pub use trainer::Trainer;

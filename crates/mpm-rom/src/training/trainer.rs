@@ -1,3 +1,4 @@
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use rand::SeedableRng;
@@ -7,7 +8,7 @@ use rayon::prelude::*;
 
 use super::loss::{PairLoss, Weights};
 use super::optimizer::Descent;
-use super::{EpochReport, Observer, Terms, Training, TrainingError};
+use super::{EpochReport, Terms, Training, TrainingError};
 use crate::encoder::{Encoder, EncoderShape};
 use crate::manifold::{Network, NetworkShape, Scaling};
 use crate::model::{Model, Summary};
@@ -78,12 +79,16 @@ impl<'a, const D: usize> Trainer<'a, D> {
         &self.history
     }
 
-    /// Trains to the last epoch, or until the observer breaks. With a path, a checkpoint is left there every `checkpoint_interval` epochs and at the
-    /// end, from which [`Self::resume`] goes on to the same bits.
+    /// Trains to the last epoch, or until `after_epoch`, which is told every one, breaks. With a path, a checkpoint is left there every
+    /// `checkpoint_interval` epochs and at the end, from which [`Self::resume`] goes on to the same bits.
     ///
     /// # Errors
     /// [`TrainingError::NotFinite`], [`TrainingError::File`].
-    pub fn train(&mut self, checkpoint: Option<&Path>, observer: &mut impl Observer) -> Result<(), TrainingError> {
+    pub fn train(
+        &mut self,
+        checkpoint: Option<&Path>,
+        after_epoch: &mut dyn FnMut(&EpochReport) -> ControlFlow<()>,
+    ) -> Result<(), TrainingError> {
         let worker = PairLoss::new(&self.network, &self.encoder);
         let mut workers = vec![worker; self.config.batch.min(self.pairs().len())];
         let epochs = self.config.epochs;
@@ -101,7 +106,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
                     encoder: self.encoder.parameters().to_vec(),
                 });
             }
-            let flow = observer.after_epoch(&report);
+            let flow = after_epoch(&report);
             let done = self.history.len() as u64;
             let due = done.is_multiple_of(self.config.checkpoint_interval) || done == epochs;
             if let Some(path) = checkpoint.filter(|_| due || flow.is_break()) {

@@ -20,6 +20,10 @@ fn small() -> (Snapshots<3>, Training) {
     (crate::common::bending_cylinder(60, 3, 4), config)
 }
 
+fn go_on(_: &EpochReport) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
 #[test]
 fn a_resumed_training_has_the_bits_of_an_uninterrupted_one() {
     for optimizer in [Optimizer::Soap, Optimizer::Adam] {
@@ -31,7 +35,7 @@ fn resumed_and_whole(optimizer: Optimizer) {
     let (snapshots, config) = small();
     let config = Training { optimizer, ..config };
     let mut whole = Trainer::new(&snapshots, config.clone()).unwrap();
-    whole.train(None, &mut ()).unwrap();
+    whole.train(None, &mut go_on).unwrap();
     let directory = tempfile::tempdir().unwrap();
     for last in [0, 2, 5, 7] {
         let path = directory.path().join(format!("{last}.safetensors"));
@@ -48,7 +52,7 @@ fn resumed_and_whole(optimizer: Optimizer) {
             .unwrap();
         let mut resumed = Trainer::resume(&snapshots, config.clone(), &path).unwrap();
         assert_eq!(resumed.history().len() as u64, last + 1);
-        resumed.train(None, &mut ()).unwrap();
+        resumed.train(None, &mut go_on).unwrap();
         assert_eq!(resumed.history(), whole.history());
         assert_eq!(resumed.model(), whole.model(), "stopped after epoch {last}");
     }
@@ -61,7 +65,7 @@ fn the_number_of_threads_does_not_matter() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut trainer = Trainer::new(&snapshots, config.clone()).unwrap();
-            trainer.train(None, &mut ()).unwrap();
+            trainer.train(None, &mut go_on).unwrap();
             trainer.model()
         })
     };
@@ -77,9 +81,7 @@ fn more_steps_than_can_be_counted_begin_with_the_first_rate() {
         ..config
     };
     let mut trainer = Trainer::new(&snapshots, config.clone()).unwrap();
-    trainer
-        .train(None, &mut |_: &EpochReport| ControlFlow::Break(()))
-        .unwrap();
+    trainer.train(None, &mut |_| ControlFlow::Break(())).unwrap();
     let rate = trainer.history()[0].rate;
     assert!((rate / config.initial_rate - 1.0).abs() < 1e-12, "{rate}");
 }
@@ -120,7 +122,7 @@ fn a_loss_that_is_not_finite_has_its_error() {
         initial_rate: 1e200,
         ..config
     };
-    let result = Trainer::new(&snapshots, wild).unwrap().train(None, &mut ());
+    let result = Trainer::new(&snapshots, wild).unwrap().train(None, &mut go_on);
     assert!(
         matches!(result, Err(TrainingError::NotFinite { epoch: 0, .. })),
         "{result:?}"
@@ -138,7 +140,7 @@ fn unseen_runs_are_reproduced() {
         ..Training::default()
     };
     let mut trainer = Trainer::new(&seen, config).unwrap();
-    trainer.train(None, &mut ()).unwrap();
+    trainer.train(None, &mut go_on).unwrap();
     let error = trainer.model().reconstruction_error(&unseen).unwrap();
     assert!(error < 1.0, "{error} %");
 }
