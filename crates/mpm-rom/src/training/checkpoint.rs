@@ -35,7 +35,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
             scene: self.snapshots.body().scene.clone(),
             training: self.config.clone(),
             scaling: self.network.scaling().clone(),
-            steps: self.descent.steps(),
+            steps: self.descent.steps,
             best: self.best.as_ref().map(|best| best.report),
             history: self.history.clone(),
         };

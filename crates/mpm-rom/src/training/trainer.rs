@@ -155,11 +155,11 @@ impl<'a, const D: usize> Trainer<'a, D> {
         for batch in pairs.chunks(self.config.batch) {
             let mut draw = || index::sample(&mut generator, self.snapshots.points(), count).into_vec();
             let chosen: Vec<Vec<usize>> = batch.iter().map(|_| draw()).collect();
-            rate = self.config.rate(self.descent.steps(), steps);
+            rate = self.config.rate(self.descent.steps, steps);
             let of_batch = self.step(workers, batch, &chosen, rate);
             let loss = of_batch.total();
             if !loss.is_finite() {
-                let step = self.descent.steps() - 1;
+                let step = self.descent.steps - 1;
                 return Err(TrainingError::NotFinite { epoch, step, loss });
             }
             let share = batch.len() as f64 / pairs.len() as f64;

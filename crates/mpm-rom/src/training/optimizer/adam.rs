@@ -12,8 +12,6 @@ pub(in crate::training) struct Adam {
     first: Vec<f64>,
     /// s.
     second: Vec<f64>,
-    /// t, steps taken.
-    pub steps: u64,
 }
 
 impl Adam {
@@ -21,14 +19,12 @@ impl Adam {
         Self {
             first: vec![0.0; parameters],
             second: vec![0.0; parameters],
-            steps: 0,
         }
     }
 
-    /// What to add to θ.
-    pub fn change(&mut self, gradient: &[f64], rate: f64) -> Vec<f64> {
-        self.steps += 1;
-        let power = self.steps as f64;
+    /// What to add to θ in step t, counted from 1.
+    pub fn change(&mut self, gradient: &[f64], rate: f64, step: u64) -> Vec<f64> {
+        let power = step as f64;
         let first_scale = 1.0 / (1.0 - FIRST_DECAY.powf(power));
         let second_scale = 1.0 / (1.0 - SECOND_DECAY.powf(power));
         let moments = self.first.iter_mut().zip(&mut self.second);
@@ -52,7 +48,7 @@ mod tests {
 
     #[test]
     fn the_first_step_is_the_rate_against_the_sign() {
-        let change = Adam::new(3).change(&[5.0, -1e-3, 0.0], 0.1);
+        let change = Adam::new(3).change(&[5.0, -1e-3, 0.0], 0.1, 1);
         assert!((change[0] + 0.1).abs() < 1e-8);
         assert!((change[1] - 0.1).abs() < 1e-5);
         assert_eq!(change[2], 0.0);
@@ -61,9 +57,9 @@ mod tests {
     #[test]
     fn a_quadratic_is_minimised() {
         let (mut parameters, mut adam) = ([3.0, -2.0], Adam::new(2));
-        for n in 0..10_000 {
+        for step in 1..=10_000 {
             let gradient = [2.0 * (parameters[0] - 1.0), 200.0 * parameters[1]];
-            let change = adam.change(&gradient, 1e-2 * 0.999f64.powi(n));
+            let change = adam.change(&gradient, 1e-2 * 0.999f64.powi(step - 1), step as u64);
             parameters = [parameters[0] + change[0], parameters[1] + change[1]];
         }
         assert!(

@@ -23,7 +23,14 @@ pub enum Optimizer {
 
 /// An optimizer under way.
 #[derive(Clone, Debug)]
-pub(super) enum Descent {
+pub(super) struct Descent {
+    method: Method,
+    /// Steps taken.
+    pub steps: u64,
+}
+
+#[derive(Clone, Debug)]
+enum Method {
     Soap(Soap),
     Adam(Adam),
 }
@@ -31,28 +38,23 @@ pub(super) enum Descent {
 impl Descent {
     /// Before its first step.
     pub fn new<const D: usize>(optimizer: Optimizer, network: &Network<D>, encoder: &Encoder<D>) -> Self {
-        match optimizer {
-            Optimizer::Soap => Self::Soap(Soap::new(network.layers(), &encoder.layers())),
-            Optimizer::Adam => Self::Adam(Adam::new(network.parameters().len() + encoder.parameters().len())),
-        }
+        let parameters = network.parameters().len() + encoder.parameters().len();
+        let method = match optimizer {
+            Optimizer::Soap => Method::Soap(Soap::new(network.layers(), &encoder.layers())),
+            Optimizer::Adam => Method::Adam(Adam::new(parameters)),
+        };
+        Self { method, steps: 0 }
     }
 
     /// One step down `gradient`; parameters and gradient are those of the network, then those of the encoder.
     pub fn step(&mut self, network: &mut [f64], encoder: &mut [f64], gradient: &[f64], rate: f64) {
-        let change = match self {
-            Self::Soap(soap) => soap.change(gradient, rate),
-            Self::Adam(adam) => adam.change(gradient, rate),
+        self.steps += 1;
+        let change = match &mut self.method {
+            Method::Soap(soap) => soap.change(gradient, rate, self.steps),
+            Method::Adam(adam) => adam.change(gradient, rate, self.steps),
         };
         for (parameter, change) in network.iter_mut().chain(encoder).zip(change) {
             *parameter += change;
-        }
-    }
-
-    /// Steps taken.
-    pub fn steps(&self) -> u64 {
-        match self {
-            Self::Soap(soap) => soap.steps,
-            Self::Adam(adam) => adam.steps,
         }
     }
 
@@ -63,19 +65,16 @@ impl Descent {
 
     /// The optimizer after `steps` steps, as [`Self::state`] told it; `state` has as many numbers.
     pub fn restore(&mut self, steps: u64, state: &[f64]) {
-        match self {
-            Self::Soap(soap) => soap.steps = steps,
-            Self::Adam(adam) => adam.steps = steps,
-        }
+        self.steps = steps;
         for (number, value) in self.numbers().zip(state) {
             *number = *value;
         }
     }
 
     fn numbers(&mut self) -> Box<dyn Iterator<Item = &mut f64> + '_> {
-        match self {
-            Self::Soap(soap) => Box::new(soap.numbers()),
-            Self::Adam(adam) => Box::new(adam.numbers()),
+        match &mut self.method {
+            Method::Soap(soap) => Box::new(soap.numbers()),
+            Method::Adam(adam) => Box::new(adam.numbers()),
         }
     }
 }

@@ -22,8 +22,6 @@ const INTERVAL: u64 = 10;
 #[derive(Clone, Debug)]
 pub(in crate::training) struct Soap {
     layers: Vec<Eigenbasis>,
-    /// t, steps taken.
-    pub steps: u64,
 }
 
 /// A layer, and the moments of its gradients.
@@ -49,16 +47,14 @@ impl Soap {
             .map(|layer| Layer::at(end + layer.weights.start, layer.inputs, layer.outputs));
         Self {
             layers: network.iter().cloned().chain(encoder).map(Eigenbasis::new).collect(),
-            steps: 0,
         }
     }
 
-    /// What to add to the parameters.
-    pub fn change(&mut self, gradient: &[f64], rate: f64) -> Vec<f64> {
-        self.steps += 1;
+    /// What to add to the parameters in step t, counted from 1.
+    pub fn change(&mut self, gradient: &[f64], rate: f64, step: u64) -> Vec<f64> {
         let mut change = vec![0.0; gradient.len()];
         for layer in &mut self.layers {
-            layer.step(gradient, rate, self.steps, &mut change);
+            layer.step(gradient, rate, step, &mut change);
         }
         change
     }
@@ -95,11 +91,11 @@ impl Eigenbasis {
         }
     }
 
-    fn step(&mut self, gradient: &[f64], rate: f64, steps: u64, change: &mut [f64]) {
+    fn step(&mut self, gradient: &[f64], rate: f64, step: u64, change: &mut [f64]) {
         let gradient = DenseMatrix::from_fn(self.first.rows(), self.first.columns(), |i, j| {
             gradient[Self::position(&self.layer, i, j)]
         });
-        let direction = self.direction(&gradient, steps);
+        let direction = self.direction(&gradient, step);
         for j in 0..direction.columns() {
             for i in 0..direction.rows() {
                 change[Self::position(&self.layer, i, j)] = -rate * direction[(i, j)];
@@ -116,16 +112,16 @@ impl Eigenbasis {
                 }
             }
         }
-        if steps % INTERVAL == 1 {
-            self.turn(steps == 1);
+        if step % INTERVAL == 1 {
+            self.turn(step == 1);
         }
     }
 
     /// Q_L [M̂ / (√Ŝ + ε)] Q_Rᵀ with this gradient in the moments.
-    fn direction(&mut self, gradient: &DenseMatrix, steps: u64) -> DenseMatrix {
+    fn direction(&mut self, gradient: &DenseMatrix, step: u64) -> DenseMatrix {
         let [left, right] = &self.vectors;
         let gradient = &left.transposed_times(gradient) * right;
-        let power = steps as f64;
+        let power = step as f64;
         let first_scale = 1.0 / (1.0 - FIRST_DECAY.powf(power));
         let second_scale = 1.0 / (1.0 - SECOND_DECAY.powf(power));
         let within = DenseMatrix::from_fn(gradient.rows(), gradient.columns(), |i, j| {

@@ -14,7 +14,7 @@ fn largest(values: &[f64]) -> f64 {
 #[test]
 fn every_parameter_has_its_place() {
     let mut soap = Soap::new(&layers(), &layers());
-    let change = soap.change(&[1.0; 42], 0.1);
+    let change = soap.change(&[1.0; 42], 0.1, 1);
     assert!(change.iter().all(|change| (change + 0.1).abs() < 1e-9), "{change:?}");
 }
 
@@ -25,7 +25,7 @@ fn vectors_stay_orthonormal_and_become_those_of_the_covariance() {
         let gradient: Vec<_> = (0..15)
             .map(|k| (k as f64 + 1.0) * f64::from(step * k + k * k).sin())
             .collect();
-        soap.change(&gradient, 0.1);
+        soap.change(&gradient, 0.1, step as u64 + 1);
     }
     let layer = &soap.layers[0];
     for (vectors, covariance) in layer.vectors.iter().zip(&layer.covariances) {
@@ -42,6 +42,9 @@ fn vectors_stay_orthonormal_and_become_those_of_the_covariance() {
         }
     }
 }
+
+/// Change of the parameters, of gradient, rate and step.
+type Change<'a> = dyn FnMut(&[f64], f64, u64) -> Vec<f64> + 'a;
 
 /// ‖A (Θ − Θ*) B‖² with A and B turned and of condition 100: Adam needs the axes of the parameters, SOAP finds its own.
 #[test]
@@ -70,11 +73,12 @@ fn a_turned_quadratic_is_minimised_faster_than_by_adam() {
         }
         (residual.entries().map(|entry| entry * entry).sum::<f64>(), gradient)
     };
-    let minimise = |change: &mut dyn FnMut(&[f64], f64) -> Vec<f64>| {
+    let minimise = |change: &mut Change<'_>| {
         let mut parameters = vec![0.0; size * size];
         for step in 0..1000 {
             let (_, gradient) = loss_and_gradient(&parameters);
-            for (parameter, change) in parameters.iter_mut().zip(change(&gradient, 0.1 * 0.99f64.powi(step))) {
+            let rate = 0.1 * 0.99f64.powi(step);
+            for (parameter, change) in parameters.iter_mut().zip(change(&gradient, rate, step as u64 + 1)) {
                 *parameter += change;
             }
         }
@@ -82,14 +86,14 @@ fn a_turned_quadratic_is_minimised_faster_than_by_adam() {
     };
     let mut soap = Soap::new(std::slice::from_ref(&layer), &[]);
     let mut adam = super::super::Adam::new(size * size);
-    let with_soap = minimise(&mut |gradient, rate| soap.change(gradient, rate));
-    let with_adam = minimise(&mut |gradient, rate| adam.change(gradient, rate));
+    let with_soap = minimise(&mut |gradient, rate, step| soap.change(gradient, rate, step));
+    let with_adam = minimise(&mut |gradient, rate, step| adam.change(gradient, rate, step));
     assert!(with_soap < 0.1 * with_adam, "{with_soap} {with_adam}");
 }
 
 #[test]
 fn without_gradient_there_is_no_step() {
     let mut soap = Soap::new(&layers(), &[]);
-    let change = soap.change(&[0.0; 21], 0.1);
+    let change = soap.change(&[0.0; 21], 0.1, 1);
     assert_eq!(largest(&change), 0.0);
 }
