@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::encoder::{Encoder, EncoderTape};
 use crate::manifold::Network;
-use crate::manifold::network::{CHUNK, SeedAdjoint, SeedTarget, Tape};
+use crate::manifold::network::{CHUNK, SeedAdjoint, Tape};
 use crate::snapshots::{Frame, Run};
 
 /// The three terms of the loss, weights included.
@@ -138,14 +138,7 @@ impl<const D: usize> PairLoss<D> {
             self.residuals(network, weights, frame, chunk, direction.is_some());
             network.reverse(&self.reference, &mut self.tape, &mut self.network, &mut adjoint);
         }
-        let (mut of_latent, mut along) = (vec![0.0; latent.len()], vec![0.0; latent.len()]);
-        let mut target = SeedTarget {
-            parameters: &mut self.network,
-            latent: &mut of_latent,
-            direction: &mut along,
-        };
-        network.reverse_seed(&adjoint, gradients, latent, direction, &mut target);
-        (of_latent, along)
+        network.reverse_seed(&adjoint, gradients, latent, direction, &mut self.network)
     }
 
     /// Adds the terms of a chunk and overwrites the tape's output with its adjoint.

@@ -7,7 +7,7 @@ mod tape;
 
 pub use scaling::Scaling;
 use seed::Seed;
-pub(crate) use seed::{SeedAdjoint, SeedTarget};
+pub(crate) use seed::SeedAdjoint;
 pub use shape::NetworkShape;
 pub(crate) use shape::{Layer, draw_uniform};
 pub(crate) use tape::Tape;

@@ -58,19 +58,20 @@ impl<const D: usize> Network<D> {
         }
     }
 
-    /// The reverse of [`Self::seed`]: adds to the adjoints of the parameters, of x̂ and of the one direction, if there is one.
+    /// The reverse of [`Self::seed`]: adds to the adjoints of the parameters, and returns those of x̂ and of the one direction, zeros if there is none.
     pub(crate) fn reverse_seed(
         &self,
         adjoint: &SeedAdjoint,
         gradients: bool,
         latent: &[f64],
         direction: Option<&[f64]>,
-        into: &mut SeedTarget<'_>,
-    ) {
+        parameters: &mut [f64],
+    ) -> (Vec<f64>, Vec<f64>) {
         let (weights, bias, inputs) = self.first_layer();
         let units = bias.len();
-        let (weights_adjoint, rest) = into.parameters.split_at_mut(weights.len());
+        let (weights_adjoint, rest) = parameters.split_at_mut(weights.len());
         let skipped = if gradients { D } else { 0 };
+        let (mut of_latent, mut along) = (vec![0.0; latent.len()], vec![0.0; latent.len()]);
         for unit in 0..units {
             let row = unit * inputs..(unit + 1) * inputs;
             let (row, row_adjoint) = (&weights[row.clone()], &mut weights_adjoint[row]);
@@ -78,7 +79,7 @@ impl<const D: usize> Network<D> {
             rest[unit] += offset;
             for (k, x) in latent.iter().enumerate() {
                 row_adjoint[D + k] += offset * x;
-                into.latent[k] += offset * row[D + k];
+                of_latent[k] += offset * row[D + k];
             }
             for k in 0..skipped {
                 row_adjoint[k] += adjoint.tangents[k * units + unit] * self.scaling.factor[k];
@@ -87,16 +88,10 @@ impl<const D: usize> Network<D> {
                 let tangent = adjoint.tangents[skipped * units + unit];
                 for (k, w) in direction.iter().enumerate() {
                     row_adjoint[D + k] += tangent * w;
-                    into.direction[k] += tangent * row[D + k];
+                    along[k] += tangent * row[D + k];
                 }
             }
         }
+        (of_latent, along)
     }
-}
-
-/// Where [`Network::reverse_seed`] adds.
-pub(crate) struct SeedTarget<'a> {
-    pub parameters: &'a mut [f64],
-    pub latent: &'a mut [f64],
-    pub direction: &'a mut [f64],
 }
