@@ -1,6 +1,5 @@
 use mpm_scenes::SceneError;
 
-use crate::deformation_map::DeformationMapError;
 use crate::full_order::FullOrderError;
 use crate::least_squares::LeastSquaresError;
 
@@ -14,9 +13,6 @@ pub enum OnlineError {
     /// The scene cannot be filled or held.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The map cannot start at rest.
-    #[error(transparent)]
-    Map(#[from] DeformationMapError),
     /// A part of the scene that the reduced dynamics do not have.
     #[error("{file}: {field}: must be {expected} in a reduced run")]
     Unsupported {
