@@ -77,7 +77,6 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
             velocities: Vec::new(),
             moved: Vec::new(),
             step: 0,
-            steps: 0,
         })
     }
 
@@ -115,7 +114,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 
     /// Steps taken.
     pub fn steps(&self) -> u64 {
-        self.steps
+        self.step
     }
 
     /// Numbers of the sample points.

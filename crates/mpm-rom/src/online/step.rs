@@ -35,8 +35,6 @@ pub struct ReducedModel<const D: usize, M> {
     pub(super) moved: Vec<[f64; D]>,
     /// The number of the step under way or taken last.
     pub(super) step: u64,
-    /// Steps that have come to their end.
-    pub(super) steps: u64,
 }
 
 /// The quadrature with its storage.
@@ -67,9 +65,8 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         self.step += 1;
         let found = self.find_velocities();
         let moved = found.and_then(|report| self.move_coordinates().map(|()| report));
-        match &moved {
-            Ok(_) => self.steps += 1,
-            Err(_) => self.step -= 1,
+        if moved.is_err() {
+            self.step -= 1;
         }
         moved
     }
