@@ -97,6 +97,13 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
             .extend(gradients.map(|gradient| Matrix::IDENTITY - *gradient));
     }
 
+    /// As [`prepare`](Self::prepare), into new storage.
+    pub fn prepared(&mut self, reference: &[[f64; D]]) -> MaterialPoints<D> {
+        let mut points = MaterialPoints::default();
+        self.prepare(reference, &mut points);
+        points
+    }
+
     /// A table of a(X) with this spacing, in the box around these points and `margin` beyond it; `None` where it would be too large.
     pub fn tabulate(&self, reference: &[[f64; D]], margin: f64, spacing: f64) -> Option<AtRestTable<D>> {
         AtRestTable::around(reference, margin, spacing, |nodes| {

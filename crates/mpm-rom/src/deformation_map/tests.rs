@@ -42,9 +42,9 @@ impl Manifold<3> for Bent {
 
 #[test]
 fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
-    let (reference, mut prepared, mut out) = (points(), MaterialPoints::default(), Evaluation::default());
+    let (reference, mut out) = (points(), Evaluation::default());
     let mut map = DeformationMap::new(Bent(Fields::bending(3), SHIFTED), &reference, &[0.2; 3]).expect("solvable");
-    map.prepare(&reference, &mut prepared);
+    let prepared = map.prepared(&reference);
     let rest = map.rest().to_vec();
     map.evaluate(&prepared, &rest, Wanted::ALL, &mut out);
     for ((g, x), gradient) in out.positions.iter().zip(&reference).zip(&out.gradients) {
@@ -57,8 +57,7 @@ fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
 fn the_gradient_is_that_of_the_map() {
     let reference = points();
     let mut map = DeformationMap::new(Fields::bending(4), &reference, &[0.0; 4]).expect("solvable");
-    let (mut prepared, mut out) = (MaterialPoints::default(), Evaluation::default());
-    map.prepare(&reference, &mut prepared);
+    let (prepared, mut out) = (map.prepared(&reference), Evaluation::default());
     // F against central differences of g in X, away from rest.
     let (latent, step) = ([0.2, -0.1, 0.05, 0.1], 1e-5);
     map.evaluate(&prepared, &latent, Wanted::GRADIENTS, &mut out);
@@ -69,8 +68,7 @@ fn the_gradient_is_that_of_the_map() {
                 .iter()
                 .map(|x| std::array::from_fn(|a| x[a] + if a == b { step } else { 0.0 }))
                 .collect();
-            let mut there = MaterialPoints::default();
-            map.prepare(&moved, &mut there);
+            let there = map.prepared(&moved);
             map.evaluate(&there, &latent, Wanted::default(), &mut out);
             out.positions.clone()
         });
@@ -99,9 +97,9 @@ fn a_table_gives_what_is_computed() {
         .map(|x| vector::scale(x, 0.97))
         .chain([[5.0; 3]])
         .collect();
-    let (mut found, mut expected) = (MaterialPoints::default(), MaterialPoints::default());
+    let mut found = MaterialPoints::default();
     map.prepare_from(&table, &places, &mut found);
-    map.prepare(&places, &mut expected);
+    let expected = map.prepared(&places);
     assert_eq!(
         (found.reference, found.offsets.len()),
         (expected.reference, places.len())

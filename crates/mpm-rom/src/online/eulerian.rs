@@ -86,10 +86,13 @@ impl<const D: usize> Eulerian<D> {
         }
     }
 
-    /// Tabulates what the map is at rest, if it can be.
-    pub fn tabulate<M: Manifold<D>>(&mut self, map: &DeformationMap<D, M>, body: &ReducedBody<D>) {
+    /// With a table of what the map is at rest, if there can be one.
+    pub fn tabulated<M: Manifold<D>>(per_axis: usize, map: &DeformationMap<D, M>, body: &ReducedBody<D>) -> Self {
         let h = body.grid.spacing();
-        self.table = map.tabulate(&body.reference, TABLE_MARGIN * h, TABLE_SPACING * h);
+        Self {
+            table: map.tabulate(&body.reference, TABLE_MARGIN * h, TABLE_SPACING * h),
+            ..Self::new(per_axis)
+        }
     }
 
     /// The quadrature points of this instant; `samples` is the evaluation of the sample points with gradients, `reference` their X_p.

@@ -11,6 +11,8 @@ use crate::manifold::{Evaluation, Manifold, Wanted};
 /// Every material point that touches ℐ, with its own mass; 𝒫 is among them.
 pub(super) struct Lagrangian<const D: usize> {
     search: Search,
+    /// All material points.
+    all: MaterialPoints<D>,
     list: NeighbourList<D>,
     candidates: MaterialPoints<D>,
     /// Numbers of the points that touch ℐ.
@@ -22,9 +24,10 @@ pub(super) struct Lagrangian<const D: usize> {
 }
 
 impl<const D: usize> Lagrangian<D> {
-    pub fn new(search: Search) -> Self {
+    pub fn new(search: Search, all: MaterialPoints<D>) -> Self {
         Self {
             search,
+            all,
             list: NeighbourList::default(),
             candidates: MaterialPoints::default(),
             touching: Vec::new(),
@@ -39,13 +42,12 @@ impl<const D: usize> Lagrangian<D> {
         &mut self,
         body: &ReducedBody<D>,
         map: &DeformationMap<D, M>,
-        all: &MaterialPoints<D>,
         nodes: &Nodes<D>,
         now: &Instant<D>,
         out: &mut QuadraturePoints<D>,
     ) -> Result<(), OnlineError> {
-        self.find(map, all, nodes, now);
-        self.chosen.select(all, &self.touching);
+        self.find(map, nodes, now);
+        self.chosen.select(&self.all, &self.touching);
         map.evaluate_moving(&self.chosen, now.latent, now.rates, &mut self.evaluation);
         out.clear();
         let there = &self.evaluation;
@@ -61,13 +63,7 @@ impl<const D: usize> Lagrangian<D> {
     }
 
     /// The numbers of the points that touch ℐ, ascending.
-    fn find<M: Manifold<D>>(
-        &mut self,
-        map: &DeformationMap<D, M>,
-        all: &MaterialPoints<D>,
-        nodes: &Nodes<D>,
-        now: &Instant<D>,
-    ) {
+    fn find<M: Manifold<D>>(&mut self, map: &DeformationMap<D, M>, nodes: &Nodes<D>, now: &Instant<D>) {
         self.touching.clear();
         if let Search::Lists { skin } = self.search
             && self.listed(map, nodes, now, skin)
@@ -77,11 +73,11 @@ impl<const D: usize> Lagrangian<D> {
             self.touching.extend(touching.map(|(_, &point)| point));
             return;
         }
-        map.evaluate(all, now.latent, Wanted::default(), &mut self.evaluation);
+        map.evaluate(&self.all, now.latent, Wanted::default(), &mut self.evaluation);
         let positions = &self.evaluation.positions;
         if let Search::Lists { skin } = self.search {
             self.list.rebuild(positions, now.samples, nodes.grid.spacing(), skin);
-            self.candidates.select(all, &self.list.points);
+            self.candidates.select(&self.all, &self.list.points);
             self.refreshes += 1;
         }
         let touching = positions.iter().zip(0..).filter(|(x, _)| nodes.touched_by(x));

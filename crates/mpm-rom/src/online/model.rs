@@ -51,23 +51,23 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         options: Options,
         sample_numbers: Vec<u32>,
     ) -> Result<Self, OnlineError> {
-        let mut scheme = scheme(&options.quadrature)?;
+        options.quadrature.check()?;
         let own = options.samples.weights()?;
         let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
-        let (mut points, mut samples) = (MaterialPoints::default(), MaterialPoints::default());
         let of_samples = sample_numbers.iter().filter_map(|&p| body.reference.get(p as usize));
-        map.prepare(&of_samples.copied().collect::<Vec<_>>(), &mut samples);
-        match &mut scheme {
-            Scheme::Lagrangian(_) => map.prepare(&body.reference, &mut points),
-            Scheme::Eulerian(scheme) => scheme.tabulate(&map, &body),
-        }
+        let samples = map.prepared(&of_samples.copied().collect::<Vec<_>>());
+        let scheme = match options.quadrature {
+            Quadrature::Lagrangian { search } => {
+                Scheme::Lagrangian(Lagrangian::new(search, map.prepared(&body.reference)))
+            }
+            Quadrature::Eulerian { per_axis } => Scheme::Eulerian(Eulerian::tabulated(per_axis, &map, &body)),
+        };
         Ok(Self {
             coordinates: Coordinates::new(map.rest().to_vec(), weights),
             nodes: Nodes::new(body.grid),
             body,
             map,
             options,
-            points,
             sample_numbers,
             samples,
             scheme,
@@ -124,21 +124,11 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 
     /// Points of the body for [`evaluate`](Self::evaluate), by their reference positions: its own, or others (super-resolution).
     pub fn prepare(&mut self, reference: &[[f64; D]]) -> MaterialPoints<D> {
-        let mut points = MaterialPoints::default();
-        self.map.prepare(reference, &mut points);
-        points
+        self.map.prepared(reference)
     }
 
     /// g, F and ∂g/∂x̂ at prepared points now.
     pub fn evaluate(&self, points: &MaterialPoints<D>, wanted: Wanted, out: &mut Evaluation<D>) {
         self.map.evaluate(points, &self.coordinates.latent, wanted, out);
     }
-}
-
-fn scheme<const D: usize>(quadrature: &Quadrature) -> Result<Scheme<D>, OnlineError> {
-    quadrature.check()?;
-    Ok(match *quadrature {
-        Quadrature::Lagrangian { search } => Scheme::Lagrangian(Lagrangian::new(search)),
-        Quadrature::Eulerian { per_axis } => Scheme::Eulerian(Eulerian::new(per_axis)),
-    })
 }

@@ -17,8 +17,6 @@ pub struct ReducedModel<const D: usize, M> {
     pub(super) body: ReducedBody<D>,
     pub(super) map: DeformationMap<D, M>,
     pub(super) options: Options,
-    /// All material points; none with quadrature at points of space, which does not need them.
-    pub(super) points: MaterialPoints<D>,
     /// Numbers of the sample points 𝒫 and what the map needs of them.
     pub(super) sample_numbers: Vec<u32>,
     pub(super) samples: MaterialPoints<D>,
@@ -118,7 +116,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
         let mut report = StepReport::default();
         match &mut self.scheme {
             Scheme::Lagrangian(scheme) => {
-                scheme.place(body, &self.map, &self.points, nodes, &now, out)?;
+                scheme.place(body, &self.map, nodes, &now, out)?;
                 report.refreshes = scheme.refreshes;
             }
             Scheme::Eulerian(scheme) => {
