@@ -10,6 +10,7 @@ use super::support::Support;
 use super::{OnlineError, ReducedBody};
 use crate::deformation_map::{AtRestTable, DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Manifold, velocities};
+use crate::nearest::nearest;
 
 /// Evaluations of the map for one X, at most; a point that needs more carries nothing.
 const EVALUATIONS: usize = 10;
@@ -251,16 +252,11 @@ struct Start<'a, const D: usize> {
 impl<'a, const D: usize> Start<'a, D> {
     /// The sample point nearest to `centre`; `None` where its F has no inverse.
     fn nearest(centre: &[f64; D], reference: &'a [[f64; D]], samples: &'a Evaluation<D>) -> Option<Self> {
-        let all = samples.positions.iter().zip(&samples.gradients).zip(reference);
-        let nearest = all.min_by(|((a, _), _), ((b, _), _)| {
-            vector::distance_squared(a, centre).total_cmp(&vector::distance_squared(b, centre))
-        });
-        let ((position, gradient), reference) = nearest?;
-        let inverse = gradient.inverse()?;
+        let sample = nearest(centre, &samples.positions);
         Some(Self {
-            reference,
-            position,
-            inverse,
+            reference: &reference[sample],
+            position: &samples.positions[sample],
+            inverse: samples.gradients[sample].inverse()?,
         })
     }
 
