@@ -3,6 +3,7 @@
 use mpm_tensor::vector;
 
 use super::nodes::WIDTH;
+use super::support::around;
 
 /// How the material points are found that touch ℐ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,10 +41,8 @@ impl<const D: usize> NeighbourList<D> {
         self.points.clear();
         self.nearest.clear();
         for (x, point) in positions.iter().zip(0..) {
-            let own = cell_of(x);
             let mut best: Option<(f64, u32, [f64; D])> = None;
-            for number in 0..3usize.pow(D as u32) {
-                let cell = std::array::from_fn(|a| own[a] + (number / 3usize.pow(a as u32) % 3) as i64 - 1);
+            for cell in around(cell_of(x)) {
                 let start = self.cells.partition_point(|(other, _)| *other < cell);
                 for &(_, s) in self.cells[start..].iter().take_while(|(other, _)| *other == cell) {
                     let offset = vector::subtract(x, &samples[s as usize]);

@@ -4,6 +4,12 @@ use std::collections::HashMap;
 
 use super::nodes::Nodes;
 
+/// The 3ᴰ cells that touch this one, and itself; the first axis runs fastest.
+pub(super) fn around<const D: usize>(cell: [i64; D]) -> impl Iterator<Item = [i64; D]> {
+    let digit = |number: usize, a: usize| (number / 3usize.pow(a as u32) % 3) as i64;
+    (0..3usize.pow(D as u32)).map(move |number| std::array::from_fn(|a| cell[a] + digit(number, a) - 1))
+}
+
 /// The 3ᴰ cells around every active node, each once, with their places in the list of the step before.
 #[derive(Default)]
 pub(super) struct Support<const D: usize> {
@@ -30,9 +36,7 @@ impl<const D: usize> Support<D> {
         self.marked_places.clear();
         self.marked.resize(nodes.box_size(), false);
         for &active in &nodes.places {
-            let node = nodes.node(active);
-            for number in 0..3usize.pow(D as u32) {
-                let cell = std::array::from_fn(|a| node[a] + (number / 3usize.pow(a as u32) % 3) as i64 - 1);
+            for cell in around(nodes.node(active)) {
                 if let Some(place) = nodes.place(&cell)
                     && let Some(marked) = self.marked.get_mut(place)
                     && !*marked
