@@ -7,7 +7,7 @@ mod tracers;
 
 pub use document::{SceneDocument, Value};
 pub use error::FullOrderError;
-pub(crate) use recording::steps_per_frame as whole_steps_per_frame;
+pub(crate) use recording::steps_per_frame;
 pub use recording::{FramesBetween, Recording};
 pub use tracers::TracedRun;
 

@@ -31,16 +31,13 @@ impl FramesBetween {
     pub(crate) fn of(&self, scene: &Scene) -> Result<Scene, FullOrderError> {
         let mut finer = scene.clone();
         finer.output.interval /= self.per_frame as f64;
-        if let Some(step) = scene.time.step {
-            let (steps, of_part) = (scene.output.interval / step, finer.output.interval / step);
-            if (of_part - of_part.round()).abs() > 1e-6 * of_part {
-                return Err(FullOrderError::FramesBetween {
-                    per_frame: self.per_frame,
-                    steps: steps.round() as u64,
-                });
-            }
+        match scene.time.step {
+            Some(step) if steps_per_frame(&finer).is_none() => Err(FullOrderError::FramesBetween {
+                per_frame: self.per_frame,
+                steps: (scene.output.interval / step).round() as u64,
+            }),
+            _ => Ok(finer),
         }
-        Ok(finer)
     }
 
     /// The field that makes no sense, with what is wrong.

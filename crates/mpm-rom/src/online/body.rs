@@ -9,7 +9,7 @@ use mpm_scenes::{HeldRegion, Kinematics, Population, Scene};
 use mpm_tensor::vector;
 
 use super::OnlineError;
-use crate::full_order::{body_of, whole_steps_per_frame};
+use crate::full_order::{body_of, steps_per_frame};
 
 /// A body with everything that pulls at it: the same points, grid, kernel (quadratic), transfer (PIC), Δt and prescribed motions as in the full-order run
 /// of its scene. Positions are relative to the centroid at rest.
@@ -51,13 +51,16 @@ impl<const D: usize> ReducedBody<D> {
         let body = body_of::<D>(scene, &[])?;
         let population = Population::<D>::fill(scene).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &population).map_err(refused)?;
-        let Supported { grid, lower, material } = supported(scene)?;
+        let Supported {
+            grid,
+            lower,
+            material,
+            steps_per_frame,
+        } = supported(scene)?;
         let shapes = scene
             .bodies
             .iter()
             .map(|body| shape::build::<D>("bodies.shape", &body.shape));
-        let frame = scene.output.interval;
-        let steps = steps_per_frame(scene)?;
         let origin: [f64; D] = std::array::from_fn(|a| lower.get(a).copied().unwrap_or(0.0));
         Ok(Self {
             density: body.density,
@@ -66,8 +69,8 @@ impl<const D: usize> ReducedBody<D> {
             gravity: std::array::from_fn(|a| scene.gravity.get(a).copied().unwrap_or(0.0)),
             kinematics,
             grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), grid),
-            time_step: frame / steps as f64,
-            steps_per_frame: steps,
+            time_step: scene.output.interval / steps_per_frame as f64,
+            steps_per_frame,
             held: HeldRegion::of(scene).map_err(refused)?,
             shapes: shapes.collect::<Result<_, _>>().map_err(refused)?,
             reference: body.reference,
@@ -134,6 +137,7 @@ struct Supported<'a, const D: usize> {
     /// The first node of it.
     lower: &'a [f64],
     material: Box<dyn Material<D>>,
+    steps_per_frame: u64,
 }
 
 fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineError> {
@@ -174,7 +178,9 @@ fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineEr
             return unsupported(scene, field, expected);
         }
     }
-    steps_per_frame(scene)?;
+    let Some(steps_per_frame) = steps_per_frame(scene) else {
+        return unsupported(scene, "time.step", "given, and a whole part of output.interval");
+    };
     let [table] = scene.materials.values().collect::<Vec<_>>()[..] else {
         return unsupported(scene, "materials", "a single one");
     };
@@ -182,6 +188,7 @@ fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineEr
         grid: grid.spacing,
         lower: &domain.lower,
         material: material(scene, table)?,
+        steps_per_frame,
     })
 }
 
@@ -190,16 +197,7 @@ fn supported<const D: usize>(scene: &Scene) -> Result<Supported<'_, D>, OnlineEr
 /// # Errors
 /// [`OnlineError::Unsupported`], as [`ReducedBody::of`].
 pub(crate) fn check_supported<const D: usize>(scene: &Scene) -> Result<u64, OnlineError> {
-    supported::<D>(scene)?;
-    steps_per_frame(scene)
-}
-
-/// Refuses a Δt that is not given or does not divide the frame.
-fn steps_per_frame(scene: &Scene) -> Result<u64, OnlineError> {
-    match whole_steps_per_frame(scene) {
-        Some(steps) => Ok(steps),
-        None => unsupported(scene, "time.step", "given, and a whole part of output.interval"),
-    }
+    Ok(supported::<D>(scene)?.steps_per_frame)
 }
 
 fn material<const D: usize>(scene: &Scene, table: &MaterialTable) -> Result<Box<dyn Material<D>>, OnlineError> {
