@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::Model;
 use crate::encoder::EncoderError;
+use crate::least_squares::squared_distance;
 use crate::manifold::{Evaluation, Manifold, Wanted};
 use crate::snapshots::{Frame, Snapshots};
 
@@ -16,10 +17,7 @@ impl<const D: usize> Model<D> {
     /// [`EncoderError::Points`] for snapshots of another body.
     pub fn reconstruction_error(&self, snapshots: &Snapshots<D>) -> Result<f64, EncoderError> {
         let sums = self.sums(snapshots, Wanted::default(), |at, frame| {
-            let pairs = at.positions.iter().zip(&frame.positions);
-            let error: f64 = pairs
-                .map(|(found, expected)| vector::distance_squared(found, expected))
-                .sum();
+            let error = squared_distance(&at.positions, &frame.positions);
             [error, frame.positions.iter().map(vector::norm_squared).sum()]
         });
         sums.map(|[error, size]| 100.0 * (error / size).sqrt())
