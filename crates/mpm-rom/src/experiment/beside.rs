@@ -140,7 +140,7 @@ pub(super) fn not_begun<const D: usize>(full: &Full<D>, choice: &Choice, points:
         samples: choice.samples.count().unwrap_or(points),
         asked: choice.samples,
         chosen: match choice.samples {
-            SampleCount::All(_) => "all",
+            SampleCount::All => "all",
             SampleCount::Drawn(_) => choice.chosen.name(),
         },
         quadrature: choice.quadrature.name(),

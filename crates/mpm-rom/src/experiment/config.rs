@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::ExperimentError;
 use super::beside::Choice;
 use super::files::names;
-use super::options::{All, ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount};
+use super::options::{ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount};
 use super::results::is_column;
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
@@ -132,7 +132,7 @@ impl Default for ReducedRuns {
         Self {
             scene: None,
             manifold: vec![ManifoldName::Network],
-            samples: vec![SampleCount::Drawn(50), SampleCount::All(All::All)],
+            samples: vec![SampleCount::Drawn(50), SampleCount::All],
             choice: vec![ChoiceName::default()],
             seed: 0,
             exchanges: 0,
@@ -157,7 +157,7 @@ impl ReducedRuns {
         on_training: impl FnOnce(usize) -> Result<SampleChoice, OnlineError>,
     ) -> Result<SampleChoice, OnlineError> {
         let (count, seed) = match choice.samples {
-            SampleCount::All(_) => return Ok(SampleChoice::All),
+            SampleCount::All => return Ok(SampleChoice::All),
             SampleCount::Drawn(count) => (count, self.seed),
         };
         match choice.chosen {
@@ -174,7 +174,7 @@ impl ReducedRuns {
             weights: self.weights,
             quadrature: match (choice.quadrature, choice.samples) {
                 // All points are near a sample point when all are samples.
-                (QuadratureName::Lagrangian, SampleCount::All(_)) => Quadrature::Lagrangian { search: Search::All },
+                (QuadratureName::Lagrangian, SampleCount::All) => Quadrature::Lagrangian { search: Search::All },
                 (QuadratureName::Lagrangian, _) => Quadrature::Lagrangian {
                     search: Search::Lists { skin: self.skin },
                 },

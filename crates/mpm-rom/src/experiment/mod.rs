@@ -33,7 +33,7 @@ pub use config::{Cases, Experiment, Key, ReducedRuns};
 pub use dispatch::{run_experiment, train_experiment};
 pub use error::ExperimentError;
 pub use files::names;
-pub use options::{All, ChoiceName, ManifoldName, QuadratureName, SampleCount};
+pub use options::{ChoiceName, ManifoldName, QuadratureName, SampleCount};
 pub use reduced::run;
 pub use results::{FrameRow, ReducedRow};
 pub use super_resolution::SuperResolved;

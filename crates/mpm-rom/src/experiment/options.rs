@@ -9,12 +9,13 @@ pub(super) const MOST_TRIED: usize = 24;
 
 /// How many sample points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(untagged, expecting = "expected a number of points or \"all\"")]
+#[serde(rename_all = "kebab-case", expecting = "expected a number of points or \"all\"")]
 pub enum SampleCount {
-    /// So many.
-    Drawn(usize),
     /// Every material point: the word `"all"`.
-    All(All),
+    All,
+    /// So many.
+    #[serde(untagged)]
+    Drawn(usize),
 }
 
 impl SampleCount {
@@ -22,17 +23,9 @@ impl SampleCount {
     pub fn count(self) -> Option<usize> {
         match self {
             Self::Drawn(count) => Some(count),
-            Self::All(_) => None,
+            Self::All => None,
         }
     }
-}
-
-/// The word `"all"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum All {
-    /// Itself.
-    All,
 }
 
 words! {

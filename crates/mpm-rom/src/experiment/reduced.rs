@@ -234,7 +234,7 @@ fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
                     for &step_factor in &run.step_factor {
                         // There is one way to take all points.
                         let ways = match samples {
-                            SampleCount::All(_) => &run.choice[..1],
+                            SampleCount::All => &run.choice[..1],
                             SampleCount::Drawn(_) => &run.choice,
                         };
                         all.extend(ways.iter().map(|&chosen| Choice {

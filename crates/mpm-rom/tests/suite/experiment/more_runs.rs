@@ -28,7 +28,7 @@ fn everything_but_title_test_cases_and_runs_is_that_of_the_other_file() {
         Experiment::read(&file).expect("sound"),
     );
     assert_eq!((more.title.as_str(), more.cases.test.len()), ("A strip, again", 2));
-    assert_eq!(more.run.samples, [SampleCount::All(All::All)]);
+    assert_eq!(more.run.samples, [SampleCount::All]);
     let cases = Cases {
         test: trained.cases.test.clone(),
         ..more.cases.clone()
