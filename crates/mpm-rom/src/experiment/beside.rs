@@ -32,6 +32,14 @@ pub struct Choice {
 }
 
 impl Choice {
+    /// How its sample points are chosen, in a word: there is one way to take all of them.
+    pub fn way(&self) -> &'static str {
+        match self.samples {
+            SampleCount::All => "all",
+            SampleCount::Drawn(_) => self.chosen.name(),
+        }
+    }
+
     /// Whether its sample points are chosen on training runs.
     pub(super) fn is_made_on_training(&self) -> bool {
         self.samples.count().is_some() && self.chosen.needs_training()
@@ -119,10 +127,7 @@ pub(super) fn beside<const D: usize>(
         steps,
         seconds,
         full_seconds: full.seconds * steps as f64 / all_steps.max(1.0),
-        nodes: report.nodes,
-        quadrature_points: report.quadrature_points,
-        refreshes: report.refreshes,
-        limited: report.limited,
+        report,
         outcome,
         frames: rows,
         ..not_begun(full, choice, 0)
@@ -135,17 +140,9 @@ pub(super) fn not_begun<const D: usize>(full: &Full<D>, choice: &Choice, points:
     ReducedRow {
         case: full.case,
         parameters: runs.flat_map(|run| run.parameters.clone()).collect(),
-        manifold: choice.manifold.name(),
+        choice: *choice,
         variant: String::new(),
         samples: choice.samples.count().unwrap_or(points),
-        asked: choice.samples,
-        chosen: match choice.samples {
-            SampleCount::All => "all",
-            SampleCount::Drawn(_) => choice.chosen.name(),
-        },
-        quadrature: choice.quadrature.name(),
-        update: choice.update.name(),
-        step_factor: choice.step_factor,
         error: None,
         reconstruction_error: None,
         super_resolved: None,
@@ -154,10 +151,7 @@ pub(super) fn not_begun<const D: usize>(full: &Full<D>, choice: &Choice, points:
         steps: 0,
         seconds: 0.0,
         full_seconds: 0.0,
-        nodes: 0,
-        quadrature_points: 0,
-        refreshes: 0,
-        limited: 0,
+        report: StepReport::default(),
         outcome: String::new(),
         frames: Vec::new(),
     }

@@ -29,6 +29,7 @@ mod trial_runs;
 mod trials;
 mod variants;
 
+pub use beside::Choice;
 pub use config::{Cases, Experiment, Key, ReducedRuns};
 pub use dispatch::{run_experiment, train_experiment};
 pub use error::ExperimentError;

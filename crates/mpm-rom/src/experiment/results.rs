@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{SampleCount, SuperResolved};
+use super::{Choice, SampleCount, SuperResolved};
+use crate::online::StepReport;
 
 /// A reduced run beside the full-order run of the same case.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,22 +12,12 @@ pub struct ReducedRow {
     pub case: usize,
     /// Values of its parameters.
     pub parameters: Vec<f64>,
-    /// The family of maps.
-    pub manifold: &'static str,
+    /// What it was made with.
+    pub choice: Choice,
     /// The variant whose network it is; empty for that of `[training]`.
     pub variant: String,
-    /// |𝒫|.
+    /// |𝒫|; a cubature may have fewer than were asked for.
     pub samples: usize,
-    /// What was asked for: a cubature may have fewer.
-    pub asked: SampleCount,
-    /// How they were chosen.
-    pub chosen: &'static str,
-    /// The quadrature.
-    pub quadrature: &'static str,
-    /// The update.
-    pub update: &'static str,
-    /// Δt over that of the full-order run.
-    pub step_factor: u64,
     /// The position error over all frames reached, in per cent; `None` where none was, but for the first.
     pub error: Option<f64>,
     /// What encoder and network lose of the full-order frames without any dynamics, in per cent; `None` without an encoder.
@@ -43,14 +34,8 @@ pub struct ReducedRow {
     pub seconds: f64,
     /// Wall time of the full-order run of as many steps (s).
     pub full_seconds: f64,
-    /// |ℐ| of the last step.
-    pub nodes: usize,
-    /// Quadrature points of the last step.
-    pub quadrature_points: usize,
-    /// Neighbour lists made.
-    pub refreshes: u64,
-    /// Quadrature points that had F limited because of J ≤ 0, counted in every step.
-    pub limited: usize,
+    /// What its last step did.
+    pub report: StepReport,
     /// `finished`, or why the run ended before its time.
     pub outcome: String,
     /// All frames reached.
@@ -68,77 +53,86 @@ pub struct FrameRow {
     pub latent: Vec<f64>,
 }
 
-/// All rows as CSV.
-pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
-    let mut text = String::new();
-    for row in rows {
-        let columns = columns(parameters, row);
-        if text.is_empty() {
-            let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
-            text = names.join(",") + "\n";
-        }
-        let values: Vec<String> = columns.into_iter().map(|(_, value)| value).collect();
-        text += &(values.join(",") + "\n");
-    }
-    text
+/// The column before those of the parameters.
+const CASE: &str = "case";
+
+/// A name, and what makes the value of a row, empty where there is none.
+type Column = (&'static str, fn(&ReducedRow) -> String);
+
+/// The columns after those of the parameters.
+const COLUMNS: [Column; 25] = [
+    ("manifold", |row| row.choice.manifold.name().to_owned()),
+    ("variant", |row| row.variant.clone()),
+    ("samples", |row| row.samples.to_string()),
+    ("asked", |row| match row.choice.samples {
+        SampleCount::All => "all".to_owned(),
+        SampleCount::Drawn(count) => count.to_string(),
+    }),
+    ("choice", |row| row.choice.way().to_owned()),
+    ("quadrature", |row| row.choice.quadrature.name().to_owned()),
+    ("update", |row| row.choice.update.name().to_owned()),
+    ("step_factor", |row| row.choice.step_factor.to_string()),
+    ("position_error_percent", |row| some(row.error)),
+    ("reconstruction_error_percent", |row| some(row.reconstruction_error)),
+    ("super_resolution_points", |row| {
+        let points = row.super_resolved.map(|fine| fine.points.to_string());
+        points.unwrap_or_default()
+    }),
+    ("super_resolution_error_percent", |row| {
+        some(row.super_resolved.and_then(|fine| fine.error))
+    }),
+    ("tracer_error_percent", |row| {
+        some(row.super_resolved.map(|fine| fine.tracer_error))
+    }),
+    ("latent_return", |row| exact(row.latent_return)),
+    ("simulated_seconds", |row| exact(row.simulated)),
+    ("steps", |row| row.steps.to_string()),
+    ("seconds", |row| format!("{:.6}", row.seconds)),
+    ("full_seconds", |row| format!("{:.6}", row.full_seconds)),
+    ("speed_up", |row| per_second(row.full_seconds, row)),
+    ("real_time_factor", |row| per_second(row.simulated, row)),
+    ("nodes", |row| row.report.nodes.to_string()),
+    ("quadrature_points", |row| row.report.quadrature_points.to_string()),
+    ("neighbour_lists", |row| row.report.refreshes.to_string()),
+    ("limited", |row| row.report.limited.to_string()),
+    ("outcome", |row| format!("\"{}\"", row.outcome.replace('"', "'"))),
+];
+
+/// All digits of a number.
+fn exact(value: f64) -> String {
+    format!("{value:?}")
 }
 
-/// The columns of the results, but for the parameters.
-const COLUMNS: &str = "case manifold variant samples asked choice quadrature update step_factor position_error_percent reconstruction_error_percent super_resolution_points super_resolution_error_percent tracer_error_percent latent_return simulated_seconds steps seconds full_seconds speed_up real_time_factor nodes quadrature_points neighbour_lists limited outcome";
+fn some(value: Option<f64>) -> String {
+    value.map(exact).unwrap_or_default()
+}
+
+/// A number of a run over its wall time; one that could not begin took none.
+fn per_second(value: f64, row: &ReducedRow) -> String {
+    match row.seconds > 0.0 {
+        true => format!("{:.3}", value / row.seconds),
+        false => String::new(),
+    }
+}
+
+/// All rows as CSV.
+pub(super) fn results(parameters: &[String], rows: &[ReducedRow]) -> String {
+    let names = parameters.iter().map(String::as_str);
+    let names = names.chain(COLUMNS.map(|(name, _)| name));
+    let mut text = CASE.to_owned();
+    names.for_each(|name| text += &format!(",{name}"));
+    for row in rows {
+        let values = row.parameters.iter().map(|&value| exact(value));
+        let values = values.chain(COLUMNS.map(|(_, value)| value(row)));
+        text += &format!("\n{}", row.case);
+        values.for_each(|value| text += &format!(",{value}"));
+    }
+    text + "\n"
+}
 
 /// Whether the results have a column with this name, whatever the parameters are.
 pub(super) fn is_column(name: &str) -> bool {
-    COLUMNS.split(' ').any(|column| column == name)
-}
-
-/// Names and values of a row, empty where there are none.
-fn columns<'a>(parameters: &'a [String], row: &ReducedRow) -> Vec<(&'a str, String)> {
-    let exact = |value: f64| format!("{value:?}");
-    let some = |value: Option<f64>| value.map(exact).unwrap_or_default();
-    let fine = row.super_resolved;
-    // A run that could not begin took no time.
-    let timed = row.seconds > 0.0;
-    let per_second = |value: f64| {
-        let per_second = timed.then(|| format!("{:.3}", value / row.seconds));
-        per_second.unwrap_or_default()
-    };
-    let mut columns = vec![("case", row.case.to_string())];
-    let named = parameters.iter().zip(&row.parameters);
-    columns.extend(named.map(|(name, &value)| (name.as_str(), exact(value))));
-    columns.extend([
-        ("manifold", row.manifold.to_owned()),
-        ("variant", row.variant.clone()),
-        ("samples", row.samples.to_string()),
-        (
-            "asked",
-            row.asked.count().map_or("all".to_owned(), |count| count.to_string()),
-        ),
-        ("choice", row.chosen.to_owned()),
-        ("quadrature", row.quadrature.to_owned()),
-        ("update", row.update.to_owned()),
-        ("step_factor", row.step_factor.to_string()),
-        ("position_error_percent", some(row.error)),
-        ("reconstruction_error_percent", some(row.reconstruction_error)),
-        (
-            "super_resolution_points",
-            fine.map(|fine| fine.points.to_string()).unwrap_or_default(),
-        ),
-        ("super_resolution_error_percent", some(fine.and_then(|fine| fine.error))),
-        ("tracer_error_percent", some(fine.map(|fine| fine.tracer_error))),
-        ("latent_return", exact(row.latent_return)),
-        ("simulated_seconds", exact(row.simulated)),
-        ("steps", row.steps.to_string()),
-        ("seconds", format!("{:.6}", row.seconds)),
-        ("full_seconds", format!("{:.6}", row.full_seconds)),
-        ("speed_up", per_second(row.full_seconds)),
-        ("real_time_factor", per_second(row.simulated)),
-        ("nodes", row.nodes.to_string()),
-        ("quadrature_points", row.quadrature_points.to_string()),
-        ("neighbour_lists", row.refreshes.to_string()),
-        ("limited", row.limited.to_string()),
-        ("outcome", format!("\"{}\"", row.outcome.replace('"', "'"))),
-    ]);
-    columns
+    name == CASE || COLUMNS.iter().any(|(column, _)| *column == name)
 }
 
 /// All frames of all runs as CSV, with as many coordinates as the largest network has; `run` is the row of the run in the results, counted from 0.
@@ -149,13 +143,7 @@ pub(super) fn frames(runs: &[ReducedRow]) -> String {
     let mut text = format!("run,time,position_error_percent{names}\n");
     for (number, run) in runs.iter().enumerate() {
         for frame in &run.frames {
-            let value = |k: usize| {
-                frame
-                    .latent
-                    .get(k)
-                    .map(|value| format!("{value:?}"))
-                    .unwrap_or_default()
-            };
+            let value = |k: usize| some(frame.latent.get(k).copied());
             let latent: String = (0..coordinates).map(|k| format!(",{}", value(k))).collect();
             let _ = writeln!(text, "{number},{:?},{:?}{latent}", frame.time, frame.error);
         }

@@ -15,7 +15,7 @@ fn error_of_training_runs(exchanges: usize, out: &Path, file: &Path) -> f64 {
     let experiment = Experiment::parse(&text, file).expect("sound");
     train_one(&experiment, out);
     let rows = run::<2>(&experiment, out, &mut |_, _| true).expect("run");
-    assert!(rows.iter().all(|row| (row.chosen, row.samples) == ("greedy", 10)));
+    assert!(rows.iter().all(|row| (row.choice.way(), row.samples) == ("greedy", 10)));
     (rows.iter().map(|row| row.error.expect("frames").powi(2)).sum::<f64>() / rows.len() as f64).sqrt()
 }
 

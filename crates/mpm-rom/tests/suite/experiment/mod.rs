@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mpm_rom::experiment::*;
 use mpm_rom::full_order::SceneDocument;
+use mpm_rom::online::Update;
 use mpm_rom::training::EpochReport;
 
 mod exchanges;
@@ -106,18 +107,18 @@ fn an_experiment_is_stopped_goes_on_and_is_run() {
     }
 
     let rows = run::<2>(&experiment, &whole, &mut |_, _| true).expect("run");
-    let kinds: Vec<_> = rows[..4].iter().map(|row| (row.samples, row.update)).collect();
-    assert_eq!((rows[0].chosen, rows[2].chosen), ("greedy", "all"));
-    let updates = ["position-velocity", "velocity-only"];
+    let kinds: Vec<_> = rows[..4].iter().map(|row| (row.samples, row.choice.update)).collect();
+    assert_eq!((rows[0].choice.way(), rows[2].choice.way()), ("greedy", "all"));
+    let updates = [Update::PositionVelocity, Update::VelocityOnly];
     assert!(
         rows[..4]
             .iter()
-            .all(|row| row.manifold == "network" && row.reconstruction_error.is_some())
+            .all(|row| row.choice.manifold == ManifoldName::Network && row.reconstruction_error.is_some())
     );
     assert!(
         rows[4..]
             .iter()
-            .all(|row| row.manifold == "linear" && row.outcome == "finished")
+            .all(|row| row.choice.manifold == ManifoldName::Linear && row.outcome == "finished")
     );
     assert_eq!(
         kinds,
@@ -204,7 +205,7 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
     assert_eq!(rows.len(), 24);
     for row in &rows {
         assert_eq!((row.outcome.as_str(), row.reconstruction_error), ("finished", None));
-        assert_eq!(row.steps * row.step_factor, 80, "of the fine scene");
+        assert_eq!(row.steps * row.choice.step_factor, 80, "of the fine scene");
         assert!(row.error.is_some_and(|error| error < 20.0), "{row:?}");
     }
 
@@ -351,6 +352,6 @@ fn sample_points_are_on_the_regions_of_each_case() {
     train_one(&experiment, &out);
     // Given points without five on the region would be refused.
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
-    let greedy: Vec<_> = rows.iter().filter(|row| row.chosen == "greedy").collect();
+    let greedy: Vec<_> = rows.iter().filter(|row| row.choice.way() == "greedy").collect();
     assert!(!greedy.is_empty() && greedy.iter().all(|row| row.samples == 20));
 }

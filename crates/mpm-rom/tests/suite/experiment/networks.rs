@@ -23,7 +23,13 @@ fn variants_are_other_networks_for_the_same_data() {
     let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
     let kinds: Vec<_> = rows
         .iter()
-        .map(|row| (row.manifold, row.variant.as_str(), row.frames[0].latent.len()))
+        .map(|row| {
+            (
+                row.choice.manifold.name(),
+                row.variant.as_str(),
+                row.frames[0].latent.len(),
+            )
+        })
         .collect();
     let expected = [("network", "", 2), ("network", "three", 3), ("linear", "", 2)];
     assert_eq!(kinds, expected.iter().flat_map(|&kind| [kind; 2]).collect::<Vec<_>>());
@@ -121,8 +127,10 @@ fn of_several_starts_the_one_with_the_best_training_runs_is_kept() {
     train_one(&alone, &other);
     assert_eq!(bytes(other.join(names::MODEL)), model(0));
     let rows = run::<2>(&alone, &other, &mut |_, _| true).expect("run");
-    let of_first =
-        |row: &&ReducedRow| (row.manifold, row.chosen, row.update) == ("network", "greedy", "position-velocity");
+    let of_first = |row: &&ReducedRow| {
+        let made = &row.choice;
+        (made.manifold.name(), made.way(), made.update.name()) == ("network", "greedy", "position-velocity")
+    };
     let squares = rows
         .iter()
         .filter(of_first)
