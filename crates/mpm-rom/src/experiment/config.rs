@@ -6,12 +6,15 @@ use serde::Deserialize;
 
 use super::ExperimentError;
 use super::beside::Choice;
+use super::chosen::Chosen;
 use super::files::names;
 use super::options::{ChoiceName, MOST_TRIED, ManifoldName, QuadratureName, SampleCount};
 use super::results::is_column;
 use super::variants::Variant;
 use crate::full_order::FramesBetween;
-use crate::online::{Inverted, OnlineError, Options, Quadrature, SampleChoice, SampleWeights, Search, Update};
+use crate::online::{
+    Inverted, OnlineError, Options, Quadrature, ReducedBody, SampleChoice, SampleWeights, Search, Update,
+};
 use crate::training::Training;
 
 /// An experiment: a scene, the parameters in which its runs differ, and what is trained and run.
@@ -150,11 +153,23 @@ impl Default for ReducedRuns {
 }
 
 impl ReducedRuns {
-    /// The sample points of one run; `on_training` makes the choices that need training runs.
-    pub(super) fn samples(
+    /// The numbers of sample points that are not all.
+    pub(super) fn counts(&self) -> impl Iterator<Item = usize> {
+        self.samples.iter().filter_map(|samples| samples.count())
+    }
+
+    /// Whether sample points are chosen on training runs.
+    pub(super) fn chooses_on_training(&self) -> bool {
+        self.counts().next().is_some() && self.choice.iter().any(|choice| choice.needs_training())
+    }
+
+    /// The sample points of a run of this body; `chosen` has those that are chosen on training runs.
+    pub(super) fn samples<const D: usize>(
         &self,
         choice: &Choice,
-        on_training: impl FnOnce(usize) -> Result<SampleChoice, OnlineError>,
+        chosen: &mut Chosen<D>,
+        coordinates: usize,
+        body: &ReducedBody<D>,
     ) -> Result<SampleChoice, OnlineError> {
         let (count, seed) = match choice.samples {
             SampleCount::All => return Ok(SampleChoice::All),
@@ -163,7 +178,10 @@ impl ReducedRuns {
         match choice.chosen {
             ChoiceName::Drawn => Ok(SampleChoice::Drawn { count, seed }),
             ChoiceName::Spread => Ok(SampleChoice::Spread { count, seed }),
-            ChoiceName::Greedy | ChoiceName::Cubature => on_training(count),
+            ChoiceName::Greedy | ChoiceName::Cubature => {
+                let of = (choice.manifold, choice.network, choice.chosen, count);
+                chosen.points(of, coordinates, body)
+            }
         }
     }
 
@@ -245,8 +263,7 @@ impl Experiment {
         }
         self.require(self.recorded_points != Some(0), "recorded_points", "0: at least 1")?;
         self.require(self.starts > 0, "starts", "0: at least 1")?;
-        let is_exchanged = |samples: &SampleCount| samples.count().is_some_and(|count| count <= MOST_TRIED);
-        let exchanged = run.choice.contains(&ChoiceName::Greedy) && run.samples.iter().any(is_exchanged);
+        let exchanged = run.choice.contains(&ChoiceName::Greedy) && run.counts().any(|count| count <= MOST_TRIED);
         let message = format!("only greedily chosen sample points are exchanged, {MOST_TRIED} at most: none here");
         self.require(run.exchanges == 0 || exchanged, "run.exchanges", &message)?;
         if let Some((key, message)) = self.frames_between.and_then(|between| between.fault()) {

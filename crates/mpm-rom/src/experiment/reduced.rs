@@ -79,7 +79,7 @@ pub fn run<const D: usize>(
     let runs = choices.len() * experiment.cases.test.len();
     let after_run = RefCell::new(after_run);
     let (mut chosen, mut without_points) = (Chosen::default(), Vec::new());
-    if let Some(snapshots) = training.as_ref().filter(|_| chooses_on_training(experiment)) {
+    if let Some(snapshots) = training.as_ref().filter(|_| experiment.run.chooses_on_training()) {
         let document = experiment.read_scene()?;
         for (name, network) in maps(experiment, models.len()) {
             let sampling = Sampling {
@@ -147,12 +147,10 @@ pub fn run<const D: usize>(
             };
             let (number, points) = (rows.len(), body.reference.len());
             let made = || {
-                let samples = experiment.run.samples(choice, |count| {
-                    let of = (choice.manifold, choice.network, choice.chosen, count);
-                    chosen.points(of, manifold.coordinates(), &body)
-                })?;
-                let options = experiment.run.options(choice, samples);
-                let written = experiment.run.vtu.then(|| FrameFiles::of_run(directory, number));
+                let run = &experiment.run;
+                let samples = run.samples(choice, &mut chosen, manifold.coordinates(), &body)?;
+                let options = run.options(choice, samples);
+                let written = run.vtu.then(|| FrameFiles::of_run(directory, number));
                 beside(manifold, &guess, body, &full, choice, options, written.transpose()?)
             };
             let without_points = without_points.iter().find(|(name, network, _)| {
@@ -254,22 +252,12 @@ fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
     all
 }
 
-/// Whether sample points are chosen on training runs.
-pub(super) fn chooses_on_training(experiment: &Experiment) -> bool {
-    let run = &experiment.run;
-    let drawn = run
-        .samples
-        .iter()
-        .any(|samples| matches!(samples, SampleCount::Drawn(_)));
-    drawn && run.choice.iter().any(|choice| choice.needs_training())
-}
-
 /// The training data, where linear manifolds or the choice of sample points need them.
 fn training<const D: usize>(
     experiment: &Experiment,
     directory: &Path,
 ) -> Result<Option<Snapshots<D>>, ExperimentError> {
-    if experiment.run.manifold.contains(&ManifoldName::Linear) || chooses_on_training(experiment) {
+    if experiment.run.manifold.contains(&ManifoldName::Linear) || experiment.run.chooses_on_training() {
         return Ok(Some(experiment.read_data(directory)?));
     }
     Ok(None)

@@ -2,7 +2,7 @@
 
 use mpm_scenes::{Kinematics, Population};
 
-use super::{Experiment, ExperimentError, SampleCount};
+use super::{Experiment, ExperimentError};
 use crate::online::check_count;
 
 impl Experiment {
@@ -11,13 +11,7 @@ impl Experiment {
     /// # Errors
     /// [`ExperimentError::Field`] with the first one, and what the scene's own reader says.
     pub(super) fn check_sample_counts<const D: usize>(&self) -> Result<(), ExperimentError> {
-        let counts: Vec<usize> = self
-            .run
-            .samples
-            .iter()
-            .copied()
-            .filter_map(SampleCount::count)
-            .collect();
+        let counts: Vec<usize> = self.run.counts().collect();
         if counts.is_empty() {
             return Ok(());
         }

@@ -40,7 +40,7 @@ impl<const D: usize> Sampling<'_, D> {
     /// Sample points for every number of them in the experiment, by every choice that needs training runs.
     pub fn choose(&self, into: &mut Chosen<D>) -> Result<(), ExperimentError> {
         let run = &self.experiment.run;
-        let counts: Vec<usize> = run.samples.iter().filter_map(|samples| samples.count()).collect();
+        let counts: Vec<usize> = run.counts().collect();
         let mut choices = run.choice.iter();
         choices.try_for_each(|&choice| self.choose_by(choice, &counts, into))
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::files::{self, names};
-use super::reduced::{check_step_factor, chooses_on_training};
+use super::reduced::check_step_factor;
 use super::{Experiment, ExperimentError};
 use crate::full_order::SceneDocument;
 use crate::online::check_supported;
@@ -13,7 +13,7 @@ impl Experiment {
     pub(super) fn check_reducible<const D: usize>(&self) -> Result<(), ExperimentError> {
         // Runs by which the training chooses have the time steps of its scene.
         let mut scenes = vec![(self.read_run_scene()?, &self.cases.test, &self.run.step_factor[..])];
-        if self.starts > 1 || chooses_on_training(self) {
+        if self.starts > 1 || self.run.chooses_on_training() {
             scenes.push((self.read_scene()?, &self.cases.train, &[]));
         }
         for (document, cases, factors) in scenes {

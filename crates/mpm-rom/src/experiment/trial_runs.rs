@@ -22,10 +22,7 @@ impl<const D: usize> Sampling<'_, D> {
         }
         let mut trials = Trials::of(&self.experiment.cases.train);
         self.together(&choice, f64::INFINITY, &mut trials, &mut |body| {
-            run.samples(&choice, |count| {
-                let of = (choice.manifold, choice.network, choice.chosen, count);
-                chosen.points(of, self.manifold.coordinates(), body)
-            })
+            run.samples(&choice, &mut chosen, self.manifold.coordinates(), body)
         })
     }
 
