@@ -34,19 +34,23 @@ pub enum DeformationMapError {
 /// The deformation map g(X, x̂) = g̃(X, x̂) + a(X) (Chen et al. 2023, §3.1, Eqs. 24 to 26) of a body that starts at rest, for which the paper's b(X) is 0.
 ///
 /// a(X) = X − g̃(X, x̂₀) with x̂₀ = argmin_y Σ|X_p − g̃(X_p, y)|², so that g(X, x̂₀) = X, and F = ∇g̃(X, x̂) + I − ∇g̃(X, x̂₀) = I there.
-pub struct DeformationMap<const D: usize, M> {
-    manifold: M,
+pub struct DeformationMap<'a, const D: usize> {
+    manifold: &'a dyn Manifold<D>,
     rest: Vec<f64>,
     at_rest: Evaluation<D>,
 }
 
-impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
+impl<'a, const D: usize> DeformationMap<'a, D> {
     /// The map of a body that starts at rest. `reference` are the points in the sums for x̂₀, `start` is where the search begins: the encoder's
     /// coordinates of the body at rest, or zeros.
     ///
     /// # Errors
     /// [`DeformationMapError`].
-    pub fn new(manifold: M, reference: &[[f64; D]], start: &[f64]) -> Result<Self, DeformationMapError> {
+    pub fn new(
+        manifold: &'a dyn Manifold<D>,
+        reference: &[[f64; D]],
+        start: &[f64],
+    ) -> Result<Self, DeformationMapError> {
         let expected = manifold.coordinates();
         if start.len() != expected {
             let found = start.len();
@@ -66,7 +70,7 @@ impl<const D: usize, M: Manifold<D>> DeformationMap<D, M> {
 
     /// The map with this x̂₀.
     #[cfg(test)]
-    pub(crate) fn at(manifold: M, rest: Vec<f64>) -> Self {
+    pub(crate) fn at(manifold: &'a dyn Manifold<D>, rest: Vec<f64>) -> Self {
         Self {
             manifold,
             rest,

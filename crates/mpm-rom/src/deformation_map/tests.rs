@@ -43,7 +43,8 @@ impl Manifold<3> for Bent {
 #[test]
 fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
     let (reference, mut out) = (points(), Evaluation::default());
-    let mut map = DeformationMap::new(Bent(Fields::bending(3), SHIFTED), &reference, &[0.2; 3]).expect("solvable");
+    let bent = Bent(Fields::bending(3), SHIFTED);
+    let mut map = DeformationMap::new(&bent, &reference, &[0.2; 3]).expect("solvable");
     let prepared = map.prepared(&reference);
     let rest = map.rest().to_vec();
     map.evaluate(&prepared, &rest, Wanted::ALL, &mut out);
@@ -55,8 +56,8 @@ fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
 
 #[test]
 fn the_gradient_is_that_of_the_map() {
-    let reference = points();
-    let mut map = DeformationMap::new(Fields::bending(4), &reference, &[0.0; 4]).expect("solvable");
+    let (reference, fields) = (points(), Fields::bending(4));
+    let mut map = DeformationMap::new(&fields, &reference, &[0.0; 4]).expect("solvable");
     let (prepared, mut out) = (map.prepared(&reference), Evaluation::default());
     // F against central differences of g in X, away from rest.
     let (latent, step) = ([0.2, -0.1, 0.05, 0.1], 1e-5);
@@ -82,14 +83,14 @@ fn the_gradient_is_that_of_the_map() {
 
 #[test]
 fn a_wrong_start_is_refused() {
-    let error = DeformationMap::new(Fields::<3>::translations(), &points(), &[0.0; 2]).err();
+    let error = DeformationMap::new(&Fields::<3>::translations(), &points(), &[0.0; 2]).err();
     assert_eq!(error, Some(DeformationMapError::Coordinates { found: 2, expected: 3 }));
 }
 
 #[test]
 fn a_table_gives_what_is_computed() {
-    let reference = points();
-    let mut map = DeformationMap::new(Bent(Fields::bending(3), WAVY), &reference, &[0.2; 3]).expect("solvable");
+    let (reference, bent) = (points(), Bent(Fields::bending(3), WAVY));
+    let mut map = DeformationMap::new(&bent, &reference, &[0.2; 3]).expect("solvable");
     let table = map.tabulate(&reference, 0.1, 0.1).expect("small");
     // The last one is outside of the table.
     let places: Vec<[f64; 3]> = reference

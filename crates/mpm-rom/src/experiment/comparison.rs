@@ -3,7 +3,7 @@
 use mpm_tensor::vector;
 
 use crate::deformation_map::MaterialPoints;
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::{Evaluation, Wanted};
 use crate::online::ReducedModel;
 use crate::position_error::PositionError;
 use crate::snapshots::{Frame, Snapshots};
@@ -16,7 +16,7 @@ pub(super) struct Comparison<const D: usize> {
 }
 
 impl<const D: usize> Comparison<D> {
-    pub fn new<M: Manifold<D>>(reduced: &mut ReducedModel<D, M>, full: &Snapshots<D>) -> Self {
+    pub fn new(reduced: &mut ReducedModel<'_, D>, full: &Snapshots<D>) -> Self {
         Self {
             points: reduced.prepare(full.reference()),
             evaluation: Evaluation::default(),
@@ -25,7 +25,7 @@ impl<const D: usize> Comparison<D> {
     }
 
     /// The error of a frame, in per cent. The first one, where both runs start, has no part in the error of the run.
-    pub fn add<M: Manifold<D>>(&mut self, reduced: &ReducedModel<D, M>, frame: &Frame<D>, first: bool) -> f64 {
+    pub fn add(&mut self, reduced: &ReducedModel<'_, D>, frame: &Frame<D>, first: bool) -> f64 {
         reduced.evaluate(&self.points, Wanted::default(), &mut self.evaluation);
         let mut error = PositionError::default();
         error.add(&self.evaluation.positions, &frame.positions);

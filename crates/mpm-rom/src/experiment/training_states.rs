@@ -8,7 +8,7 @@ use super::sampling::Sampling;
 use super::spread::evenly;
 use crate::deformation_map::DeformationMap;
 use crate::least_squares::{GaussNewton, LeastSquares, Settings};
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::{Evaluation, Wanted};
 use crate::online::{KnownPoints, Quadrature, Reading, ReducedBody, ReducedModel, Search};
 use crate::snapshots::Frame;
 
@@ -84,7 +84,7 @@ fn along_path<const D: usize>(frames: &[Frame<D>], most: usize) -> Vec<usize> {
 
 /// x̂ and v̂ that come nearest to a frame: argmin Σ|g − φ|² and argmin Σ|∂g/∂x̂ v̂ − v|².
 fn fitted<const D: usize>(
-    reduced: &ReducedModel<D, &dyn Manifold<D>>,
+    reduced: &ReducedModel<'_, D>,
     frame: &Frame<D>,
     guess: Vec<f64>,
 ) -> Option<(Vec<f64>, Vec<f64>)> {

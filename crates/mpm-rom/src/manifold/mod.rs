@@ -34,17 +34,3 @@ pub trait Manifold<const D: usize>: Send + Sync {
         out.velocities.resize(reference.len(), [0.0; D]);
     }
 }
-
-impl<const D: usize, M: Manifold<D> + ?Sized> Manifold<D> for &M {
-    fn coordinates(&self) -> usize {
-        (**self).coordinates()
-    }
-
-    fn evaluate(&self, reference: &[[f64; D]], latent: &[f64], wanted: Wanted, out: &mut Evaluation<D>) {
-        (**self).evaluate(reference, latent, wanted, out);
-    }
-
-    fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
-        (**self).evaluate_moving(reference, latent, rates, out);
-    }
-}

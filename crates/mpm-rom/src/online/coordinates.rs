@@ -3,7 +3,7 @@
 use super::Update;
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::least_squares::{GaussNewton, LeastSquares, LeastSquaresError, Settings};
-use crate::manifold::{Evaluation, Manifold};
+use crate::manifold::Evaluation;
 
 /// When the search for x̂ ends.
 const SETTINGS: Settings = Settings {
@@ -44,9 +44,9 @@ impl<const D: usize> Coordinates<D> {
     }
 
     /// x̂_{n+1}; `positions` are where the sample points have moved.
-    pub fn advance<M: Manifold<D>>(
+    pub fn advance(
         &mut self,
-        map: &DeformationMap<D, M>,
+        map: &DeformationMap<'_, D>,
         samples: &MaterialPoints<D>,
         positions: &[[f64; D]],
         time_step: f64,

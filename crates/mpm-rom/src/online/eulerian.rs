@@ -9,7 +9,7 @@ use super::quadrature::QuadraturePoints;
 use super::support::Support;
 use super::{OnlineError, ReducedBody};
 use crate::deformation_map::{AtRestTable, DeformationMap, MaterialPoints};
-use crate::manifold::{Evaluation, Manifold, velocities};
+use crate::manifold::{Evaluation, velocities};
 use crate::nearest::nearest;
 
 /// Evaluations of the map for one X, at most; a point that needs more carries nothing.
@@ -88,7 +88,7 @@ impl<const D: usize> Eulerian<D> {
     }
 
     /// With a table of what the map is at rest, if there can be one.
-    pub fn tabulated<M: Manifold<D>>(per_axis: usize, map: &DeformationMap<D, M>, body: &ReducedBody<D>) -> Self {
+    pub fn tabulated(per_axis: usize, map: &DeformationMap<'_, D>, body: &ReducedBody<D>) -> Self {
         let h = body.grid.spacing();
         Self {
             table: map.tabulate(&body.reference, TABLE_MARGIN * h, TABLE_SPACING * h),
@@ -98,10 +98,10 @@ impl<const D: usize> Eulerian<D> {
 
     /// The quadrature points of this instant; `samples` is the evaluation of the sample points with gradients, `reference` their X_p.
     #[allow(clippy::too_many_arguments)]
-    pub fn place<M: Manifold<D>>(
+    pub fn place(
         &mut self,
         body: &ReducedBody<D>,
-        map: &mut DeformationMap<D, M>,
+        map: &mut DeformationMap<'_, D>,
         reference: &[[f64; D]],
         samples: &Evaluation<D>,
         nodes: &Nodes<D>,

@@ -6,7 +6,7 @@ use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::{OnlineError, ReducedBody};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::{Evaluation, Wanted};
 
 /// Every material point that touches ℐ, with its own mass; 𝒫 is among them.
 pub(super) struct Lagrangian<const D: usize> {
@@ -38,10 +38,10 @@ impl<const D: usize> Lagrangian<D> {
     }
 
     /// The quadrature points of this instant.
-    pub fn place<M: Manifold<D>>(
+    pub fn place(
         &mut self,
         body: &ReducedBody<D>,
-        map: &DeformationMap<D, M>,
+        map: &DeformationMap<'_, D>,
         nodes: &Nodes<D>,
         now: &Instant<D>,
         out: &mut QuadraturePoints<D>,
@@ -63,7 +63,7 @@ impl<const D: usize> Lagrangian<D> {
     }
 
     /// The numbers of the points that touch ℐ, ascending.
-    fn find<M: Manifold<D>>(&mut self, map: &DeformationMap<D, M>, nodes: &Nodes<D>, now: &Instant<D>) {
+    fn find(&mut self, map: &DeformationMap<'_, D>, nodes: &Nodes<D>, now: &Instant<D>) {
         self.touching.clear();
         if let Search::Lists { skin } = self.search
             && self.listed(map, nodes, now, skin)
@@ -85,13 +85,7 @@ impl<const D: usize> Lagrangian<D> {
     }
 
     /// Whether there is a list that holds; the evaluation is then that of its points.
-    fn listed<M: Manifold<D>>(
-        &mut self,
-        map: &DeformationMap<D, M>,
-        nodes: &Nodes<D>,
-        now: &Instant<D>,
-        skin: f64,
-    ) -> bool {
+    fn listed(&mut self, map: &DeformationMap<'_, D>, nodes: &Nodes<D>, now: &Instant<D>, skin: f64) -> bool {
         if self.list.points.is_empty() {
             return false;
         }

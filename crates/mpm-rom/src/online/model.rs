@@ -11,14 +11,14 @@ use super::{
     Update,
 };
 use crate::deformation_map::{DeformationMap, MaterialPoints};
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::{Evaluation, Wanted};
 
-impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
+impl<'a, const D: usize> ReducedModel<'a, D> {
     /// The model at t = 0: x̂ = x̂₀, v̂ = 0.
     ///
     /// # Errors
     /// [`OnlineError::Option`]; those of [`SampleChoice::choose`](super::SampleChoice::choose).
-    pub fn new(body: ReducedBody<D>, map: DeformationMap<D, M>, options: Options) -> Result<Self, OnlineError> {
+    pub fn new(body: ReducedBody<D>, map: DeformationMap<'a, D>, options: Options) -> Result<Self, OnlineError> {
         let numbers = options
             .samples
             .choose(&body.reference, map.coordinates(), &body.kinematics)?;
@@ -31,7 +31,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
     /// [`OnlineError::Option`].
     pub(crate) fn to_read(
         body: ReducedBody<D>,
-        map: DeformationMap<D, M>,
+        map: DeformationMap<'a, D>,
         numbers: Vec<u32>,
         quadrature: Quadrature,
     ) -> Result<Self, OnlineError> {
@@ -47,7 +47,7 @@ impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
 
     fn with_samples(
         body: ReducedBody<D>,
-        mut map: DeformationMap<D, M>,
+        mut map: DeformationMap<'a, D>,
         options: Options,
         sample_numbers: Vec<u32>,
     ) -> Result<Self, OnlineError> {

@@ -4,7 +4,7 @@ use mpm_dense::SymmetricEigen;
 
 use super::scaled_reading::mean_product;
 use super::{OnlineError, ReducedModel};
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::{Evaluation, Wanted};
 
 /// Eigenvalues below this multiple of the largest one are rounding.
 const LEAST_SQUARE: f64 = 1e-14;
@@ -18,7 +18,7 @@ pub struct Reading<const D: usize> {
     pub velocities: Vec<[f64; D]>,
 }
 
-impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
+impl<const D: usize> ReducedModel<'_, D> {
     /// What the step from `time` on would read at the sample points if x̂ and v̂ were these; the model's own coordinates and time stay.
     ///
     /// # Errors

@@ -5,9 +5,9 @@ use mpm_tensor::{Matrix, vector};
 
 use super::ReducedModel;
 use crate::deformation_map::MaterialPoints;
-use crate::manifold::{Evaluation, Manifold};
+use crate::manifold::Evaluation;
 
-impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
+impl<const D: usize> ReducedModel<'_, D> {
     /// The body now at prepared points, in the scene's coordinates: what the full-order run of the scene would show of them. Every point has an equal share of the body's volume
     /// (ours: points that the dynamics do not know have none of their own), and its stress is that of F. Where J ≤ 0 it is not a number.
     pub fn snapshot(&self, points: &MaterialPoints<D>) -> Snapshot {

@@ -10,12 +10,12 @@ use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::{OnlineError, Options, Quadrature, ReducedBody, Update};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
-use crate::manifold::{Evaluation, Manifold, Wanted};
+use crate::manifold::{Evaluation, Wanted};
 
 /// A body whose motion is that of r coordinates.
-pub struct ReducedModel<const D: usize, M> {
+pub struct ReducedModel<'a, const D: usize> {
     pub(super) body: ReducedBody<D>,
-    pub(super) map: DeformationMap<D, M>,
+    pub(super) map: DeformationMap<'a, D>,
     pub(super) options: Options,
     /// Numbers of the sample points 𝒫 and what the map needs of them.
     pub(super) sample_numbers: Vec<u32>,
@@ -54,7 +54,7 @@ pub struct StepReport {
     pub refreshes: u64,
 }
 
-impl<const D: usize, M: Manifold<D>> ReducedModel<D, M> {
+impl<const D: usize> ReducedModel<'_, D> {
     /// One step of length Δt, from t_n to t_{n+1}.
     ///
     /// # Errors

@@ -6,8 +6,8 @@ use super::*;
 fn bad_input_is_an_error_with_its_name() {
     let held = format!("{BLOCK}{HELD}");
     let refused = |text: &str, samples: SampleChoice, quadrature: Quadrature| {
-        let body = body(text);
-        let map = DeformationMap::new(Fields::bending(5), &body.reference, &[0.0; 5]).expect("at rest");
+        let (body, fields) = (body(text), Fields::bending(5));
+        let map = DeformationMap::new(&fields, &body.reference, &[0.0; 5]).expect("at rest");
         let model = ReducedModel::new(body, map, options(samples, quadrature, Update::VelocityOnly));
         model.err().expect("refused").to_string()
     };
