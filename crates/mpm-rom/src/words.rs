@@ -10,12 +10,11 @@ macro_rules! words {
         }
 
         impl $name {
-            /// All words, as in files.
-            pub const WORDS: &[&str] = &[$($word),*];
-
             /// As in files.
             pub fn name(self) -> &'static str {
-                Self::WORDS[self as usize]
+                match self {
+                    $(Self::$variant => $word,)*
+                }
             }
         }
     };

@@ -14,16 +14,6 @@ pub struct MaterialPoints<const D: usize> {
 }
 
 impl<const D: usize> MaterialPoints<D> {
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        self.reference.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.reference.is_empty()
-    }
-
     /// No points; the storage stays.
     pub fn clear(&mut self) {
         self.reference.clear();
