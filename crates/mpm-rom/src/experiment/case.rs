@@ -17,7 +17,7 @@ impl Experiment {
         let changes = self.keys.iter().enumerate().map(|(number, key)| {
             let value = self.value(key, values).ok_or_else(|| {
                 let message = format!("{:?}: each must be a parameter, or `cos` or `sin` of one", key.product);
-                self.field(format!("keys.{number}.product"), message)
+                self.field(&format!("keys.{number}.product"), message)
             })?;
             Ok((key.key.clone(), Value::Float(value)))
         });
@@ -32,7 +32,7 @@ impl Experiment {
         let keys: Vec<&str> = self.keys.iter().map(|key| key.key.as_str()).collect();
         if let Some(place) = repeated(&keys) {
             let message = format!("`{}` stands in the list before", keys[place]);
-            return Err(self.field(format!("keys.{place}.key"), message));
+            return Err(self.field(&format!("keys.{place}.key"), message));
         }
         for (number, name) in self.parameters.iter().enumerate() {
             let is_taken = self.keys.iter().any(|key| key.takes(name));
@@ -65,7 +65,7 @@ impl Experiment {
     /// A file that a key names; the key is at fault where there is none.
     pub(super) fn read_named(&self, key: &str, file: &Path) -> Result<SceneDocument, ExperimentError> {
         SceneDocument::read(file).map_err(|error| match error {
-            FullOrderError::Unreadable { .. } => self.field(key.to_owned(), error.to_string()),
+            FullOrderError::Unreadable { .. } => self.field(key, error),
             other => other.into(),
         })
     }
@@ -76,7 +76,7 @@ impl Experiment {
             FullOrderError::Change { file, key, reason } => {
                 let number = self.keys.iter().position(|own| own.key == key).unwrap_or_default();
                 let message = format!("`{key}` does not fit the scene {file}: {reason}");
-                self.field(format!("keys.{number}.key"), message)
+                self.field(&format!("keys.{number}.key"), message)
             }
             other => other.into(),
         }

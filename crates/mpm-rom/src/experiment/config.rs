@@ -257,8 +257,8 @@ impl Experiment {
         for (field, length, repeated) in lists {
             self.require(length > 0, field, "at least one is needed")?;
             if let Some(place) = repeated {
-                let field = format!("{field}.{place}");
-                self.require(false, &field, "stands in the list before: its runs would count twice")?;
+                let message = "stands in the list before: its runs would count twice";
+                return Err(self.field(&format!("{field}.{place}"), message));
             }
         }
         self.require(self.recorded_points != Some(0), "recorded_points", "0: at least 1")?;
@@ -267,7 +267,7 @@ impl Experiment {
         let message = format!("only greedily chosen sample points are exchanged, {MOST_TRIED} at most: none here");
         self.require(run.exchanges == 0 || exchanged, "run.exchanges", &message)?;
         if let Some((key, message)) = self.frames_between.and_then(|between| between.fault()) {
-            self.require(false, &format!("frames_between.{key}"), &message)?;
+            return Err(self.field(&format!("frames_between.{key}"), message));
         }
         let linear = run.manifold.contains(&ManifoldName::Linear);
         for (key, given) in [
@@ -285,7 +285,7 @@ impl Experiment {
         };
         for (key, quadrature) in [("run.skin", lists), ("run.points_per_axis", in_space)] {
             let fits = quadrature.check();
-            fits.map_err(|error| self.field(key.to_owned(), error.to_string()))?;
+            fits.map_err(|error| self.field(key, error))?;
         }
         for (number, name) in self.parameters.iter().enumerate() {
             let field = format!("parameters.{number}");
@@ -306,15 +306,10 @@ impl Experiment {
     }
 
     pub(super) fn require(&self, valid: bool, field: &str, message: &str) -> Result<(), ExperimentError> {
-        let error = || self.field(field.to_owned(), message.to_owned());
-        valid.then_some(()).ok_or_else(error)
+        valid.then_some(()).ok_or_else(|| self.field(field, message))
     }
 
-    pub(super) fn field(&self, field: String, message: String) -> ExperimentError {
-        ExperimentError::Field {
-            file: self.file.display().to_string(),
-            field,
-            message,
-        }
+    pub(super) fn field(&self, field: &str, message: impl ToString) -> ExperimentError {
+        ExperimentError::field(&self.file, field, message)
     }
 }

@@ -145,6 +145,15 @@ impl ExperimentError {
         }
     }
 
+    /// A field of an experiment's file is wrong.
+    pub(super) fn field(file: &Path, field: &str, message: impl ToString) -> Self {
+        Self::Field {
+            file: file.display().to_string(),
+            field: field.to_owned(),
+            message: message.to_string(),
+        }
+    }
+
     pub(super) fn file(operation: &'static str, file: &Path, source: std::io::Error) -> Self {
         Self::File {
             operation,

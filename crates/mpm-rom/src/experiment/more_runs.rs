@@ -7,6 +7,9 @@ use serde::Deserialize;
 use super::config::ReducedRuns;
 use super::{Cases, Experiment, ExperimentError};
 
+/// The key that such files have.
+pub(super) const TRAINED_AS: &str = "trained_as";
+
 /// Other test cases and reduced runs of the networks of another experiment.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,19 +30,12 @@ struct TestCases {
     test: Option<Vec<Vec<f64>>>,
 }
 
-/// Whether there is the key.
-#[derive(Deserialize)]
-struct Kind {
-    trained_as: Option<toml::Value>,
-}
-
 impl MoreRuns {
     /// The document, if it has the key `trained_as`.
     pub fn parse(text: &str, file: &Path) -> Result<Option<Self>, ExperimentError> {
-        match mpm_document::parse::<Kind>(text, file)?.trained_as {
-            Some(_) => Ok(Some(mpm_document::parse(text, file)?)),
-            None => Ok(None),
-        }
+        let document: toml::Table = mpm_document::parse(text, file)?;
+        let is_one = document.contains_key(TRAINED_AS);
+        is_one.then(|| Ok(mpm_document::parse(text, file)?)).transpose()
     }
 
     /// The file of the other experiment; `file` is that of this one.
@@ -48,7 +44,7 @@ impl MoreRuns {
         let name = self.trained_as.display();
         if self.trained_as.file_name() != Some(self.trained_as.as_os_str()) {
             let message = format!("{name}: a file beside this one is needed, by its name alone");
-            return Err(refused(file, message));
+            return Err(ExperimentError::field(file, TRAINED_AS, message));
         }
         Ok(file.with_file_name(&self.trained_as))
     }
@@ -65,14 +61,5 @@ impl MoreRuns {
             file: file.to_owned(),
             ..trained
         }
-    }
-}
-
-/// What is wrong with the name of the other file.
-pub(super) fn refused(file: &Path, message: String) -> ExperimentError {
-    ExperimentError::Field {
-        file: file.display().to_string(),
-        field: "trained_as".to_owned(),
-        message,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::more_runs::{MoreRuns, refused};
+use super::more_runs::{MoreRuns, TRAINED_AS};
 use super::{Experiment, ExperimentError};
 
 impl Experiment {
@@ -24,11 +24,12 @@ impl Experiment {
         let experiment = match MoreRuns::parse(text, file)? {
             Some(more) => {
                 let other = more.other_file(file)?;
+                let refused = |message| ExperimentError::field(file, TRAINED_AS, message);
                 let text = std::fs::read_to_string(&other)
-                    .map_err(|source| refused(file, format!("{}: {source}", other.display())))?;
+                    .map_err(|source| refused(format!("{}: {source}", other.display())))?;
                 if MoreRuns::parse(&text, &other)?.is_some() {
                     let message = format!("{} names a further file itself", more.trained_as.display());
-                    return Err(refused(file, message));
+                    return Err(refused(message));
                 }
                 more.completed(Self::parse(&text, &other)?, file)
             }

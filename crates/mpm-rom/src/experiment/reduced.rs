@@ -15,7 +15,7 @@ use super::super_resolution::Finer;
 use super::trained::models_for;
 use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording};
-use crate::manifold::{LinearError, Manifold, Pod};
+use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
 
@@ -65,8 +65,7 @@ pub fn run<const D: usize>(
     }
     let linear = match &training {
         Some(snapshots) if experiment.run.manifold.contains(&ManifoldName::Linear) => {
-            let refused =
-                |error: LinearError| experiment.field("run.manifold".to_owned(), format!("\"linear\": {error}"));
+            let refused = |error| experiment.field("run.manifold", format!("\"linear\": {error}"));
             Some(Pod::new(snapshots, experiment.training.coordinates).map_err(refused)?)
         }
         _ => None,
@@ -209,7 +208,7 @@ pub(super) fn check_step_factor(experiment: &Experiment, factor: u64, steps: u64
 
 fn uneven(experiment: &Experiment, factor: u64, steps: u64) -> ExperimentError {
     let message = format!("{factor} does not divide the {steps} steps of a frame");
-    experiment.field("run.step_factor".to_owned(), message)
+    experiment.field("run.step_factor", message)
 }
 
 /// The families of maps with the numbers of their networks.

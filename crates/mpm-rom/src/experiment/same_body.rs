@@ -28,7 +28,7 @@ impl Experiment {
             let other = Filled::of(&self.scene_of(&self.read_named(key, &file)?, values)?)?;
             if let Some(x) = trained_on.beside(&other).or_else(|| other.beside(trained_on)) {
                 let message = format!("another body than that of the training: only one of them has a point at {x:?}");
-                return Err(self.field(key.to_owned(), message));
+                return Err(self.field(key, message));
             }
         }
         Ok(())

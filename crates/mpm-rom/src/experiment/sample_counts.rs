@@ -22,7 +22,7 @@ impl Experiment {
         for (_, training) in self.trainings()? {
             for &count in &counts {
                 let fits = check_count(&kinematics, population.positions.len(), training.coordinates, count);
-                fits.map_err(|error| self.field("run.samples".to_owned(), error.to_string()))?;
+                fits.map_err(|error| self.field("run.samples", error))?;
             }
         }
         Ok(())

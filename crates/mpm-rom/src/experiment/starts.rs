@@ -68,7 +68,7 @@ pub(super) fn best_start<const D: usize>(
             best = Some((start, place, trained));
         }
     }
-    let (_, place, best) = best.ok_or_else(|| experiment.field("starts".to_owned(), "0: at least 1".to_owned()))?;
+    let (_, place, best) = best.ok_or_else(|| experiment.field("starts", "0: at least 1"))?;
     for name in [names::MODEL, names::LOSSES] {
         let from = place.join(name);
         let bytes = fs::read(&from).map_err(|source| ExperimentError::file("read", &from, source))?;

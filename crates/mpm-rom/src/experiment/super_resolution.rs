@@ -37,7 +37,7 @@ impl<const D: usize> Finer<D> {
         let scene = experiment.scene_of(document, &case.parameters)?;
         let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
         let recording = recording.about(&coarse.centroid);
-        let refuse = |message| Err(experiment.field("run.super_resolution".to_owned(), message));
+        let refuse = |message: String| Err(experiment.field("run.super_resolution", message));
         let (found, expected) = (recording.body.interval, like.body().interval);
         if found != expected {
             return refuse(format!(

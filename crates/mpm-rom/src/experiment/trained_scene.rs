@@ -28,7 +28,7 @@ impl Experiment {
             let document = self.read_scene()?;
             for values in &self.cases.train {
                 let divided = between.of(&self.scene_of(&document, values)?);
-                divided.map_err(|error| self.field("frames_between.per_frame".to_owned(), error.to_string()))?;
+                divided.map_err(|error| self.field("frames_between.per_frame", error))?;
             }
         }
         Ok(())

@@ -25,7 +25,7 @@ impl Experiment {
     /// # Errors
     /// [`ExperimentError::Field`]: a key that there is not, a value out of range, a name that is no name of a directory or is used twice.
     pub fn trainings(&self) -> Result<Vec<(&str, Training)>, ExperimentError> {
-        let refuse = |field: &str, message: String| Err(self.field(field.to_owned(), message));
+        let refuse = |field: &str, message: String| Err(self.field(field, message));
         if let Err(error) = self.training.check() {
             return refuse("training", error.to_string());
         }
