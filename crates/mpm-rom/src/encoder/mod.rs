@@ -65,9 +65,9 @@ impl<const D: usize> Encoder<D> {
     /// [`EncoderError`].
     pub fn start(shape: EncoderShape, scaling: Scaling, generator: &mut impl Rng) -> Result<Self, EncoderError> {
         let mut encoder = Self::new(shape, scaling, vec![0.0; shape.parameters(D)])?;
-        for range in &encoder.layout.convolutions {
-            let convolution = &mut encoder.parameters[range.clone()];
-            draw_uniform(&mut convolution[..shape::KERNEL], 2 * shape::KERNEL, generator);
+        for convolution in &encoder.layout.convolutions {
+            let weights = &mut encoder.parameters[convolution.weights.clone()];
+            draw_uniform(weights, 2 * shape::KERNEL, generator);
         }
         encoder.layout.hidden.draw(&mut encoder.parameters, generator);
         encoder.layout.last.draw(&mut encoder.parameters, generator);
@@ -86,10 +86,8 @@ impl<const D: usize> Encoder<D> {
 
     /// Convolutions and dense layers as layers of one kind: a convolution has six inputs and an output.
     pub(crate) fn layers(&self) -> Vec<Layer> {
-        let convolutions = self.layout.convolutions.iter();
-        let convolutions = convolutions.map(|range| Layer::at(range.start, shape::KERNEL, 1));
         let dense = [&self.layout.hidden, &self.layout.last];
-        convolutions.chain(dense.into_iter().cloned()).collect()
+        self.layout.convolutions.iter().chain(dense).cloned().collect()
     }
 
     pub(crate) fn parameters_mut(&mut self) -> &mut [f64] {

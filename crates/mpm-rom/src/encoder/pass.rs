@@ -29,11 +29,14 @@ impl<const D: usize> Encoder<D> {
                 input.push((position[c] - self.scaling.mean[c]) / self.scaling.deviation[c]);
             }
         }
-        for (number, range) in self.layout.convolutions.iter().enumerate() {
-            let (weights, bias) = self.parameters[range.clone()].split_at(KERNEL);
+        for (number, layer) in self.layout.convolutions.iter().enumerate() {
+            let (weights, bias) = (
+                &self.parameters[layer.weights.clone()],
+                self.parameters[layer.bias.start],
+            );
             let (done, rest) = tape.values.split_at_mut(number + 1);
             let (input, output) = (&done[number], &mut rest[0]);
-            convolve(input, weights, bias[0], output);
+            convolve(input, weights, bias, output);
             activate(output, &mut tape.slopes[number]);
         }
         let number = activations - 1;
@@ -62,13 +65,10 @@ impl<const D: usize> Encoder<D> {
             &adjoint,
             parameters,
         );
-        for (number, range) in layout.convolutions.iter().enumerate().rev() {
+        for (number, layer) in layout.convolutions.iter().enumerate().rev() {
             scale(&mut adjoint, &tape.slopes[number]);
-            let (weights, _) = self.parameters[range.clone()].split_at(KERNEL);
-            let (weights_adjoint, bias_adjoint) = parameters[range.clone()].split_at_mut(KERNEL);
             let input = &tape.values[number];
-            let mut input_adjoint = vec![0.0; if number == 0 { 0 } else { input.len() }];
-            bias_adjoint[0] += adjoint.iter().sum::<f64>();
+            parameters[layer.bias.start] += adjoint.iter().sum::<f64>();
             let mut sums = [0.0; KERNEL];
             for (&z, window) in adjoint.iter().zip(input.windows(KERNEL).step_by(STRIDE)) {
                 for k in 0..KERNEL {
@@ -76,13 +76,12 @@ impl<const D: usize> Encoder<D> {
                 }
             }
             for k in 0..KERNEL {
-                weights_adjoint[k] += sums[k];
+                parameters[layer.weights.start + k] += sums[k];
             }
             // The positions are data: nothing asks for their adjoint.
             if number > 0 {
-                spread(&adjoint, weights, &mut input_adjoint);
+                adjoint = spread(&adjoint, &self.parameters[layer.weights.clone()], input.len());
             }
-            adjoint = input_adjoint;
         }
     }
 }
@@ -98,17 +97,19 @@ fn convolve(input: &[f64], weights: &[f64], bias: f64, output: &mut Vec<f64>) {
     );
 }
 
-/// a̅_{2n+k} += z̅_n w_k.
-fn spread(adjoint: &[f64], weights: &[f64], input: &mut [f64]) {
+/// a̅_{2n+k} = Σ z̅_n w_k over all n and k that meet there, for so many inputs.
+fn spread(adjoint: &[f64], weights: &[f64], inputs: usize) -> Vec<f64> {
     let [w0, w1, w2, w3, w4, w5] = array(weights);
     let mut padded = vec![0.0; adjoint.len() + 4];
     for (padded, z) in padded.iter_mut().skip(2).zip(adjoint) {
         *padded = *z;
     }
+    let mut input = vec![0.0; inputs];
     let (pairs, _) = input.as_chunks_mut::<STRIDE>();
     for (pair, z) in pairs.iter_mut().zip(padded.windows(3)) {
         *pair = [w0 * z[2] + w2 * z[1] + w4 * z[0], w1 * z[2] + w3 * z[1] + w5 * z[0]];
     }
+    input
 }
 
 fn array(weights: &[f64]) -> [f64; KERNEL] {

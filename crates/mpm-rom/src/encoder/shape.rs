@@ -1,5 +1,3 @@
-use std::ops::Range;
-
 use serde::{Deserialize, Serialize};
 
 use crate::manifold::network::Layer;
@@ -26,10 +24,8 @@ pub struct EncoderShape {
 /// Where the numbers of every layer stand in the list of parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
-    /// Widths before, between and after the convolutions.
-    pub widths: Vec<usize>,
-    /// Six weights and a bias for each convolution.
-    pub convolutions: Vec<Range<usize>>,
+    /// As layers of six inputs and an output.
+    pub convolutions: Vec<Layer>,
     pub hidden: Layer,
     pub last: Layer,
 }
@@ -54,12 +50,13 @@ impl EncoderShape {
     pub(crate) fn layout(&self, dimension: usize) -> Layout {
         let widths = self.widths(dimension);
         let size = KERNEL + 1;
-        let convolutions: Vec<_> = (1..widths.len()).map(|n| (n - 1) * size..n * size).collect();
+        let convolutions: Vec<_> = (1..widths.len())
+            .map(|n| Layer::at((n - 1) * size, KERNEL, 1))
+            .collect();
         let start = convolutions.len() * size;
         let hidden = Layer::at(start, widths.last().copied().unwrap_or(0), self.width);
         let last = Layer::at(hidden.bias.end, self.width, self.coordinates);
         Layout {
-            widths,
             convolutions,
             hidden,
             last,
