@@ -19,6 +19,7 @@ use rand::Rng;
 use rayon::prelude::*;
 
 use super::{Evaluation, Manifold, Wanted};
+use crate::product::Weights;
 
 /// Points that go through the layers together: as many as keep a layer's columns in the second-level cache.
 pub(crate) const CHUNK: usize = 64;
@@ -133,6 +134,11 @@ impl<const D: usize> Network<D> {
         &mut self.parameters
     }
 
+    /// W of a layer.
+    fn weights(&self, layer: &Layer) -> Weights<'_> {
+        Weights::new(&self.parameters[layer.weights.clone()], layer.outputs, layer.inputs)
+    }
+
     /// Weights, biases and number of inputs of the first layer.
     fn first_layer(&self) -> (&[f64], &[f64], usize) {
         let first = &self.layers[0];
@@ -151,36 +157,26 @@ impl<const D: usize> Manifold<D> for Network<D> {
         let unit = |k: usize| (0..r).map(move |j| f64::from(u8::from(j == k)));
         let basis: Vec<f64> = (0..if wanted.jacobians { r } else { 0 }).flat_map(unit).collect();
         let seed = self.seed(latent, wanted.gradients, basis.chunks_exact(r));
-        let (positions, gradients) = (&mut out.positions, &mut out.gradients);
-        self.fill(
-            reference,
-            &seed,
-            wanted.gradients,
-            positions,
-            gradients,
-            &mut out.jacobians,
-        );
+        self.fill(reference, &seed, wanted.gradients, out);
     }
 
     fn evaluate_moving(&self, reference: &[[f64; D]], latent: &[f64], rates: &[f64], out: &mut Evaluation<D>) {
         let seed = self.seed(latent, true, std::iter::once(rates));
-        let (positions, gradients) = (&mut out.positions, &mut out.gradients);
-        self.fill(reference, &seed, true, positions, gradients, &mut out.velocities);
+        self.fill(reference, &seed, true, out);
+        std::mem::swap(&mut out.velocities, &mut out.jacobians);
         out.jacobians.clear();
     }
 }
 
 impl<const D: usize> Network<D> {
-    /// Values and tangents of a seed at all points, in metres; `along` receives P × directions columns.
-    fn fill(
-        &self,
-        reference: &[[f64; D]],
-        seed: &Seed,
-        wanted: bool,
-        positions: &mut Vec<[f64; D]>,
-        gradients: &mut Vec<Matrix<D>>,
-        along: &mut Vec<[f64; D]>,
-    ) {
+    /// Values and tangents of a seed at all points, in metres; those along its directions are P × directions columns of the Jacobians.
+    fn fill(&self, reference: &[[f64; D]], seed: &Seed, wanted: bool, out: &mut Evaluation<D>) {
+        let Evaluation {
+            positions,
+            gradients,
+            jacobians: along,
+            ..
+        } = out;
         let (points, skipped) = (reference.len(), if wanted { D } else { 0 });
         let directions = seed.count - skipped;
         positions.resize(points, [0.0; D]);

@@ -3,7 +3,7 @@
 use super::Network;
 use super::seed::{Seed, SeedAdjoint};
 use crate::activation::elu;
-use crate::product::{LANES, Weights, add_products, multiply};
+use crate::product::{LANES, add_products, multiply};
 
 /// What the passes of one chunk leave behind, reused from chunk to chunk.
 ///
@@ -110,49 +110,33 @@ impl<const D: usize> Network<D> {
         let (points, columns) = (reference.len().next_multiple_of(LANES), 1 + seed.count);
         let (width, depth) = (self.shape.width, self.shape.depth);
         tape.resize(points, columns, width, depth, D);
-        let Some((last, middle)) = self.layers.split_last() else {
-            return;
-        };
         let (weights, _, inputs) = self.first_layer();
-        if let Some(first) = tape.hidden.first_mut() {
-            for (unit, block) in first.before.chunks_exact_mut(points * columns).enumerate() {
-                let row = &weights[unit * inputs..unit * inputs + D];
-                block[reference.len()..points].fill(0.0);
-                for (z, position) in block.iter_mut().zip(reference) {
-                    let mut sum = 0.0;
-                    for k in 0..D {
-                        sum += row[k] * (position[k] - self.scaling.centre[k]) * self.scaling.factor[k];
-                    }
-                    *z = sum;
+        let first = &mut tape.hidden[0];
+        for (unit, block) in first.before.chunks_exact_mut(points * columns).enumerate() {
+            let row = &weights[unit * inputs..unit * inputs + D];
+            block[reference.len()..points].fill(0.0);
+            for (z, position) in block.iter_mut().zip(reference) {
+                let mut sum = 0.0;
+                for k in 0..D {
+                    sum += row[k] * (position[k] - self.scaling.centre[k]) * self.scaling.factor[k];
                 }
-                for (t, tangent) in block[points..].chunks_exact_mut(points).enumerate() {
-                    tangent.fill(seed.tangents[t * width + unit]);
-                }
+                *z = sum;
             }
-            first.activate(&seed.offset, points, columns);
+            for (t, tangent) in block[points..].chunks_exact_mut(points).enumerate() {
+                tangent.fill(seed.tangents[t * width + unit]);
+            }
         }
+        first.activate(&seed.offset, points, columns);
         for number in 1..depth {
-            let layer = &middle[number];
+            let layer = &self.layers[number];
             let (done, rest) = tape.hidden.split_at_mut(number);
             let (previous, next) = (&done[number - 1], &mut rest[0]);
-            let weights = &self.parameters[layer.weights.clone()];
-            let z = &mut next.before;
-            multiply(
-                z,
-                Weights::new(weights, layer.outputs, layer.inputs),
-                &previous.after,
-                points * columns,
-            );
+            multiply(&mut next.before, self.weights(layer), &previous.after, points * columns);
             next.activate(&self.parameters[layer.bias.clone()], points, columns);
         }
-        let weights = &self.parameters[last.weights.clone()];
+        let last = &self.layers[depth];
         let after = &tape.hidden[depth - 1].after;
-        multiply(
-            &mut tape.output,
-            Weights::new(weights, D, last.inputs),
-            after,
-            points * columns,
-        );
+        multiply(&mut tape.output, self.weights(last), after, points * columns);
         for (component, bias) in self.parameters[last.bias.clone()].iter().enumerate() {
             tape.output_mut(component, 0).iter_mut().for_each(|y| *y += bias);
         }
@@ -181,13 +165,7 @@ impl<const D: usize> Network<D> {
             let weights = &mut parameters[layer.weights.clone()];
             add_products(weights, z, &hidden.after, stacked);
             tape.adjoint.resize(layer.inputs * stacked, 0.0);
-            let weights = &self.parameters[layer.weights.clone()];
-            multiply(
-                &mut tape.adjoint,
-                Weights::new(weights, layer.outputs, layer.inputs).transpose(),
-                z,
-                stacked,
-            );
+            multiply(&mut tape.adjoint, self.weights(layer).transpose(), z, stacked);
             tape.adjoint_before.resize(layer.inputs * stacked, 0.0);
             hidden.reverse(&tape.adjoint, &mut tape.adjoint_before, points, columns);
         }
