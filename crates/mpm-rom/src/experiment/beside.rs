@@ -10,7 +10,7 @@ use super::{ChoiceName, ExperimentError, ManifoldName, QuadratureName, SampleCou
 use crate::deformation_map::DeformationMap;
 use crate::manifold::Manifold;
 use crate::online::{Options, ReducedBody, ReducedModel, StepReport, Update};
-use crate::snapshots::{Frame, Snapshots};
+use crate::snapshots::Snapshots;
 
 /// What a reduced run is made with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +78,7 @@ pub(super) fn beside<const D: usize>(
         .map(|finer| (Comparison::new(&mut reduced, &finer.snapshots), finer));
     let (mut report, mut seconds, mut outcome) = (StepReport::default(), 0.0, "finished".to_owned());
     let mut rows = Vec::new();
-    for (number, frame) in frames_of(&full.snapshots).enumerate() {
+    for (number, frame) in full.snapshots.frames().enumerate() {
         let first = number == 0;
         if !first {
             let start = Instant::now();
@@ -99,7 +99,7 @@ pub(super) fn beside<const D: usize>(
         });
         let (mut finest, mut expected) = (&own, frame);
         if let Some((comparison, finer)) = &mut finer
-            && let Some(frame) = frames_of(&finer.snapshots).nth(number)
+            && let Some(frame) = finer.snapshots.frames().nth(number)
         {
             comparison.add(&reduced, frame, first);
             (finest, expected) = (comparison, frame);
@@ -112,7 +112,7 @@ pub(super) fn beside<const D: usize>(
         }
     }
     let steps = reduced.steps();
-    let end = frames_of(&full.snapshots).last().map_or(0.0, |frame| frame.time);
+    let end = full.snapshots.frames().last().map_or(0.0, |frame| frame.time);
     let all_steps = (end / reduced.body().time_step).round();
     Ok(ReducedRow {
         samples: reduced.samples().len(),
@@ -155,11 +155,6 @@ pub(super) fn not_begun<const D: usize>(full: &Full<D>, choice: &Choice, points:
         outcome: String::new(),
         frames: Vec::new(),
     }
-}
-
-/// The frames of a full-order run.
-fn frames_of<const D: usize>(snapshots: &Snapshots<D>) -> impl Iterator<Item = &Frame<D>> {
-    snapshots.runs().iter().flat_map(|run| &run.frames)
 }
 
 /// How far x̂ is from its start in the end, over its largest distance from there: 0 where the path is closed. A path that never leaves its start is.

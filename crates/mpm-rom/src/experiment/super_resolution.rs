@@ -46,7 +46,7 @@ impl<const D: usize> Finer<D> {
         }
         let refused = |error| ExperimentError::of_test_case(experiment, number, error);
         let (frames, _) = recording.run(&scene).map_err(refused)?;
-        let expected: usize = like.runs().iter().map(|run| run.frames.len()).sum();
+        let expected = like.frames().count();
         if frames.len() != expected {
             let found = frames.len();
             return refuse(format!("{found} frames, where the scene that is run has {expected}"));

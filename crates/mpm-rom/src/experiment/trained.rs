@@ -107,7 +107,7 @@ pub(super) fn train_network<const D: usize>(
         name: String::new(),
         points: snapshots.points(),
         runs: snapshots.runs().len(),
-        frames: snapshots.runs().iter().map(|run| run.frames.len()).sum(),
+        frames: snapshots.frames().count(),
         starts: Vec::new(),
         epochs,
         resumed_at,

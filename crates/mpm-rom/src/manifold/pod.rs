@@ -51,7 +51,7 @@ impl<const D: usize> Pod<D> {
     /// [`LinearError::Rank`], [`LinearError::Decomposition`].
     pub fn new(snapshots: &Snapshots<D>, coordinates: usize) -> Result<Self, LinearError> {
         let reference = snapshots.reference();
-        let frames: Vec<_> = snapshots.runs().iter().flat_map(|run| &run.frames).collect();
+        let frames: Vec<_> = snapshots.frames().collect();
         let displacements = DenseMatrix::from_fn(reference.len() * D, frames.len(), |row, column| {
             frames[column].positions[row / D][row % D] - reference[row / D][row % D]
         });

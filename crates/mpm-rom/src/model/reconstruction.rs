@@ -46,7 +46,7 @@ impl<const D: usize> Model<D> {
         wanted: Wanted,
         of_frame: impl Fn(&Evaluation<D>, &Frame<D>) -> [f64; 2] + Sync,
     ) -> Result<[f64; 2], EncoderError> {
-        let frames: Vec<_> = snapshots.runs().iter().flat_map(|run| &run.frames).collect();
+        let frames: Vec<_> = snapshots.frames().collect();
         let parts = frames.par_iter().map_init(Evaluation::default, |at, frame| {
             let latent = self.encoder.encode(&frame.positions)?;
             self.network.evaluate(snapshots.reference(), &latent, wanted, at);

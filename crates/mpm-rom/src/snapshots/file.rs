@@ -40,20 +40,23 @@ impl<const D: usize> Snapshots<D> {
             parameters: body.parameters.clone(),
             frames: self.runs.iter().map(|run| run.frames.len()).collect(),
         };
-        let frames = || self.runs.iter().flat_map(|run| &run.frames);
-        let total = frames().count();
+        let total = self.frames().count();
         let mut file = TensorWriter::default();
         file.add("reference", &[points, D], body.reference.iter().flatten().copied());
         file.add("centroid", &[D], body.centroid);
         let parameters = self.runs.iter().flat_map(|run| run.parameters.iter().copied());
         file.add("parameters", &[self.runs.len(), body.parameters.len()], parameters);
-        file.add("times", &[total], frames().map(|frame| frame.time));
-        let positions = frames().flat_map(|frame| frame.positions.iter().flatten().copied());
+        file.add("times", &[total], self.frames().map(|frame| frame.time));
+        let positions = self
+            .frames()
+            .flat_map(|frame| frame.positions.iter().flatten().copied());
         file.add("positions", &[total, points, D], positions);
-        let gradients = frames().flat_map(|frame| &frame.deformation_gradients);
+        let gradients = self.frames().flat_map(|frame| &frame.deformation_gradients);
         let gradients = gradients.flat_map(|gradient| gradient.0.into_iter().flatten());
         file.add("deformation_gradients", &[total, points, D, D], gradients);
-        let velocities = frames().flat_map(|frame| frame.velocities.iter().flatten().copied());
+        let velocities = self
+            .frames()
+            .flat_map(|frame| frame.velocities.iter().flatten().copied());
         file.add("velocities", &[total, points, D], velocities);
         file.write(path, LAYOUT, &header)
     }

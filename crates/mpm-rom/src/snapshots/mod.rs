@@ -89,6 +89,11 @@ impl<const D: usize> Snapshots<D> {
         &self.runs
     }
 
+    /// The frames of all runs, one run after the other.
+    pub fn frames(&self) -> impl Iterator<Item = &Frame<D>> + Clone {
+        self.runs.iter().flat_map(|run| &run.frames)
+    }
+
     /// Number of material points.
     pub fn points(&self) -> usize {
         self.body.reference.len()

@@ -43,11 +43,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
     /// [`TrainingError::Value`]; [`TrainingError::Network`] where D = 0.
     pub fn new(snapshots: &'a Snapshots<D>, config: Training) -> Result<Self, TrainingError> {
         config.check()?;
-        let positions = snapshots
-            .runs()
-            .iter()
-            .flat_map(|run| &run.frames)
-            .flat_map(|frame| &frame.positions);
+        let positions = snapshots.frames().flat_map(|frame| &frame.positions);
         let scaling = Scaling::fit(snapshots.reference(), positions);
         let shape = NetworkShape {
             coordinates: config.coordinates,

@@ -8,7 +8,7 @@ use mpm_tensor::vector;
 fn worst_gap(manifold: &Pod<3>, snapshots: &Snapshots<3>) -> f64 {
     let r = manifold.coordinates();
     let mut worst = 0.0_f64;
-    for frame in snapshots.runs().iter().flat_map(|run| &run.frames) {
+    for frame in snapshots.frames() {
         let mut latent = vec![0.0; r];
         for k in 0..r {
             let (mut above, mut below) = (0.0, 0.0);
