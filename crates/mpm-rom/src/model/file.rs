@@ -43,13 +43,8 @@ impl<const D: usize> Model<D> {
             summary: self.summary.clone(),
         };
         let mut file = TensorWriter::default();
-        let lists = [
-            ("network", self.network.parameters()),
-            ("encoder", self.encoder.parameters()),
-        ];
-        for (name, values) in lists {
-            file.add(name, &[values.len()], values.iter().copied());
-        }
+        file.add_list("network", self.network.parameters());
+        file.add_list("encoder", self.encoder.parameters());
         file.write(path, LAYOUT, &header)
     }
 

@@ -21,6 +21,11 @@ impl TensorWriter {
         self.tensors.push((name.into(), shape.to_vec(), bytes));
     }
 
+    /// Adds a tensor of one axis.
+    pub fn add_list(&mut self, name: &str, values: &[f64]) {
+        self.add(name, &[values.len()], values.iter().copied());
+    }
+
     /// Writes the file whole or not at all; an earlier one is replaced.
     ///
     /// # Errors

@@ -40,13 +40,12 @@ impl<'a, const D: usize> Trainer<'a, D> {
             history: self.history.clone(),
         };
         let mut file = TensorWriter::default();
-        let mut add = |name: &str, values: &[f64]| file.add(name, &[values.len()], values.iter().copied());
-        add("network", self.network.parameters());
-        add("encoder", self.encoder.parameters());
-        add("descent", &self.descent.state());
+        file.add_list("network", self.network.parameters());
+        file.add_list("encoder", self.encoder.parameters());
+        file.add_list("descent", &self.descent.state());
         if let Some(best) = &self.best {
-            add("best_network", &best.network);
-            add("best_encoder", &best.encoder);
+            file.add_list("best_network", &best.network);
+            file.add_list("best_encoder", &best.encoder);
         }
         Ok(file.write(path, LAYOUT, &header)?)
     }
