@@ -86,7 +86,12 @@ pub(crate) fn named(parameters: &[String], values: &[f64]) -> String {
 /// # Errors
 /// [`FullOrderError::Dimension`], [`FullOrderError::Scene`], [`FullOrderError::Densities`] for materials of different density.
 pub fn body_of<const D: usize>(scene: &Scene, parameters: &[String]) -> Result<Body<D>, FullOrderError> {
-    check_dimension::<D>(scene)?;
+    if scene.dimension != D {
+        return Err(FullOrderError::Dimension {
+            found: scene.dimension,
+            expected: D,
+        });
+    }
     let population = Population::<D>::fill(scene).map_err(|fault| scene.error(fault))?;
     let mut densities: Vec<f64> = scene.materials.values().map(MaterialTable::density).collect();
     densities.dedup();
@@ -113,11 +118,4 @@ pub fn centroid<const D: usize>(points: &[[f64; D]]) -> [f64; D] {
         vector::accumulate(&mut mean, share, x);
     }
     mean
-}
-
-fn check_dimension<const D: usize>(scene: &Scene) -> Result<(), FullOrderError> {
-    match scene.dimension {
-        found if found != D => Err(FullOrderError::Dimension { found, expected: D }),
-        _ => Ok(()),
-    }
 }
