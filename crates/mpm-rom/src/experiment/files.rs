@@ -34,7 +34,7 @@ impl Experiment {
     /// Takes a directory for this experiment, which may hold a part of it. What the training does not hang on may have changed since: title, test cases and reduced runs. So may the networks where none has a state yet, and
     /// everything where there are no data either.
     pub(super) fn occupy(&self, directory: &Path) -> Result<(), ExperimentError> {
-        std::fs::create_dir_all(directory).map_err(|source| ExperimentError::file("create", directory, source))?;
+        create(directory)?;
         let file = directory.join(names::CONFIG);
         if file.exists() && !holds_no_more_than(directory, &[names::CONFIG])? {
             let of_data = [names::CONFIG, names::SCENE, names::TRAINING_DATA];
@@ -96,6 +96,11 @@ fn titled(text: &str, title: &str) -> String {
 
 /// What the names of the directories begin with that hold networks of which the best is kept.
 pub(super) const START: &str = "start_";
+
+/// A directory, with those above it.
+pub(super) fn create(directory: &Path) -> Result<(), ExperimentError> {
+    std::fs::create_dir_all(directory).map_err(|source| ExperimentError::file("create", directory, source))
+}
 
 /// A text file, whole or not at all.
 pub(super) fn write(file: &Path, text: &str) -> Result<(), ExperimentError> {

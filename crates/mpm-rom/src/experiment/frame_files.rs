@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use mpm_scenes::Snapshot;
 use mpm_scenes::output::{self, remove_frames, vtu, write_index, write_whole};
 
-use super::ExperimentError;
+use super::{ExperimentError, files};
 
 /// The frames of a run, in a directory of their own.
 pub(super) struct FrameFiles {
@@ -18,7 +18,7 @@ impl FrameFiles {
     /// Files of the run with this number, in `run_0000` of `directory`.
     pub fn of_run(directory: &Path, run: usize) -> Result<Self, ExperimentError> {
         let directory = directory.join(name_of(run));
-        std::fs::create_dir_all(&directory).map_err(|source| ExperimentError::file("create", &directory, source))?;
+        files::create(&directory)?;
         Ok(Self {
             directory,
             times: Vec::new(),

@@ -32,8 +32,8 @@ pub(super) fn best_start<const D: usize>(
     let watch = RefCell::new(watch);
     let mut best: Option<(Start, PathBuf, Trained)> = None;
     for number in 0..experiment.starts {
-        let place = directory.join(directory_name(number));
-        fs::create_dir_all(&place).map_err(|source| ExperimentError::file("create", &place, source))?;
+        let place = directory.join(format!("{START}{number}"));
+        files::create(&place)?;
         let training = Training {
             seed: training.seed.wrapping_add(number),
             ..training.clone()
@@ -86,11 +86,6 @@ impl Start {
         let key = |start: &Self| (start.position_error, start.gradient_error);
         key(self) < key(other)
     }
-}
-
-/// Where the network of a start is.
-fn directory_name(number: u64) -> String {
-    format!("{START}{number}")
 }
 
 /// One row per start.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use super::files::names;
+use super::files::{self, names};
 use super::starts::best_start;
 use super::trained::{Trained, Watch, train_network};
 use super::variants::directory_of;
@@ -32,8 +32,7 @@ pub fn train<const D: usize>(
     networks
         .map(|(name, training)| {
             let directory = directory_of(directory, name);
-            std::fs::create_dir_all(&directory)
-                .map_err(|source| ExperimentError::file("create", &directory, source))?;
+            files::create(&directory)?;
             let trained = match experiment.starts {
                 1 => train_network(&snapshots, &training, &directory, watch)?,
                 _ => best_start(experiment, &snapshots, &training, &directory, watch)?,
@@ -72,7 +71,8 @@ fn training_data<const D: usize>(
         Err(FullOrderError::Stopped { .. }) => return Err(ExperimentError::Stopped),
         collected => collected.map_err(|error| experiment.blamed(error))?,
     };
-    experiment.keep_scene(&document, directory)?;
+    // What these runs were made of.
+    files::write(&directory.join(names::SCENE), document.text())?;
     snapshots.write(&file)?;
     Ok(snapshots)
 }

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use super::files::{self, names};
+use super::files::names;
 use super::reduced::check_step_factor;
 use super::{Experiment, ExperimentError};
-use crate::full_order::SceneDocument;
 use crate::online::check_supported;
 
 impl Experiment {
@@ -32,11 +31,6 @@ impl Experiment {
             }
         }
         Ok(())
-    }
-
-    /// Writes down what the training runs were made of.
-    pub(super) fn keep_scene(&self, document: &SceneDocument, directory: &Path) -> Result<(), ExperimentError> {
-        files::write(&directory.join(names::SCENE), document.text())
     }
 
     /// Refuses a scene with other values than those that were written down; comments may differ. Directories of earlier versions have nothing written down, and pass.
