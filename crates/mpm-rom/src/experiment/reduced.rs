@@ -100,7 +100,6 @@ pub fn run<const D: usize>(
     let after_run = after_run.into_inner();
     let mut rows = Vec::new();
     for (case, values) in experiment.cases.test.iter().enumerate() {
-        let changed = experiment.case(values)?;
         let scene = experiment.scene_of(&document, values)?;
         // Full-order runs can be long: what makes no reduced body is refused before them.
         for &factor in &experiment.run.step_factor {
@@ -128,7 +127,7 @@ pub fn run<const D: usize>(
             None => None,
             Some(finer) => {
                 let coarse = reduced_body(experiment, &scene, &trained_on.centroid, 1)?;
-                Some(Finer::run(experiment, finer, (case, &changed), &coarse, &snapshots)?)
+                Some(Finer::run(experiment, finer, case, &coarse, &snapshots)?)
             }
         };
         let full = Full {

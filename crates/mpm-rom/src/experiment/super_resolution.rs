@@ -1,7 +1,7 @@
 //! Full-order runs with more points than a model was trained on, and what a coarse run makes of these points.
 
 use super::{Experiment, ExperimentError};
-use crate::full_order::{Case, FullOrderError, Recording, SceneDocument, TracedRun};
+use crate::full_order::{FullOrderError, Recording, SceneDocument, TracedRun};
 use crate::online::ReducedBody;
 use crate::position_error::PositionError;
 use crate::snapshots::{Run, Snapshots};
@@ -26,15 +26,16 @@ pub struct SuperResolved {
 }
 
 impl<const D: usize> Finer<D> {
-    /// Runs a test case with its number on the scene of `document` in full, and its points as tracers on a run of `coarse`, which has the frames of `like`.
+    /// Runs the test case with this number on the scene of `document` in full, and its points as tracers on a run of `coarse`, which has the frames of `like`.
     pub fn run(
         experiment: &Experiment,
         document: &SceneDocument,
-        (number, case): (usize, &Case),
+        case: usize,
         coarse: &ReducedBody<D>,
         like: &Snapshots<D>,
     ) -> Result<Self, ExperimentError> {
-        let scene = experiment.scene_of(document, &case.parameters)?;
+        let values = &experiment.cases.test[case];
+        let scene = experiment.scene_of(document, values)?;
         let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
         let recording = recording.about(&coarse.centroid);
         let refuse = |message: String| Err(experiment.field("run.super_resolution", message));
@@ -44,7 +45,7 @@ impl<const D: usize> Finer<D> {
                 "a frame every {found} s, where the scene that is run has one every {expected} s"
             ));
         }
-        let refused = |error| ExperimentError::of_test_case(experiment, number, error);
+        let refused = |error| ExperimentError::of_test_case(experiment, case, error);
         let (frames, _) = recording.run(&scene).map_err(refused)?;
         let expected = like.frames().count();
         if frames.len() != expected {
@@ -58,7 +59,7 @@ impl<const D: usize> Finer<D> {
             error.add(&traced.tracers(), &frame.positions);
         }
         let run = Run {
-            parameters: case.parameters.clone(),
+            parameters: values.clone(),
             frames,
         };
         Ok(Self {
