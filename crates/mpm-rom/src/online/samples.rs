@@ -49,25 +49,21 @@ impl SampleChoice {
         kinematics: &Kinematics<D>,
     ) -> Result<Vec<u32>, OnlineError> {
         let points = reference.len();
-        let (count, seed) = match self {
-            Self::All => (points, 0),
-            Self::Drawn { count, seed } | Self::Spread { count, seed } => (*count, *seed),
-            Self::Given(numbers) => (numbers.len(), 0),
-            Self::Weighted(weighted) => (weighted.len(), 0),
+        let groups = |count| groups(kinematics, points, coordinates, count);
+        let given = |numbers: Vec<u32>| {
+            groups(numbers.len())?;
+            check_given(&numbers, points, kinematics)?;
+            Ok(numbers)
         };
-        let groups = groups(kinematics, points, coordinates, count)?;
-        match self {
-            Self::All => return Ok((0..points as u32).collect()),
-            Self::Given(numbers) => return given(numbers, points, kinematics),
-            Self::Weighted(weighted) => {
-                let numbers: Vec<u32> = weighted.iter().map(|(number, _)| *number).collect();
-                return given(&numbers, points, kinematics);
-            }
-            _ => {}
-        }
+        let (count, seed) = match self {
+            Self::All => return given((0..points as u32).collect()),
+            Self::Given(numbers) => return given(numbers.clone()),
+            Self::Weighted(weighted) => return given(weighted.iter().map(|(number, _)| *number).collect()),
+            Self::Drawn { count, seed } | Self::Spread { count, seed } => (*count, *seed),
+        };
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let (mut chosen, mut free) = (Vec::with_capacity(count), vec![true; points]);
-        for (mut members, share) in groups {
+        for (mut members, share) in groups(count)? {
             members.retain(|&point| free[point as usize]);
             members.shuffle(&mut generator);
             if matches!(self, Self::Spread { .. }) {
@@ -158,7 +154,7 @@ pub(crate) fn check_count<const D: usize>(
     groups(kinematics, points, coordinates, count).map(drop)
 }
 
-fn given<const D: usize>(numbers: &[u32], points: usize, kinematics: &Kinematics<D>) -> Result<Vec<u32>, OnlineError> {
+fn check_given<const D: usize>(numbers: &[u32], points: usize, kinematics: &Kinematics<D>) -> Result<(), OnlineError> {
     let mut next = 0;
     for &number in numbers {
         if number < next || number as usize >= points {
@@ -173,7 +169,7 @@ fn given<const D: usize>(numbers: &[u32], points: usize, kinematics: &Kinematics
             return Err(OnlineError::TooFewOnRegion { region, found, needed });
         }
     }
-    Ok(numbers.to_vec())
+    Ok(())
 }
 
 /// Puts `count` points first, each the farthest from those before it; the first one stays.
