@@ -96,20 +96,17 @@ impl<const D: usize> Eulerian<D> {
         }
     }
 
-    /// The quadrature points of this instant; `samples` is the evaluation of the sample points with gradients, `reference` their X_p.
-    #[allow(clippy::too_many_arguments)]
+    /// The quadrature points of this instant, at which the map has been evaluated with gradients.
     pub fn place(
         &mut self,
         body: &ReducedBody<D>,
         map: &mut DeformationMap<'_, D>,
-        reference: &[[f64; D]],
-        samples: &Evaluation<D>,
         nodes: &Nodes<D>,
         now: &Instant<D>,
         out: &mut QuadraturePoints<D>,
     ) -> Result<(), OnlineError> {
         self.support.find(nodes);
-        self.guess(body, nodes, reference, samples, now);
+        self.guess(body, nodes, now);
         out.clear();
         let tolerance = self.tolerance * nodes.grid.spacing();
         for _ in 0..EVALUATIONS {
@@ -127,16 +124,9 @@ impl<const D: usize> Eulerian<D> {
     }
 
     /// Points of all cells that have to be looked at, each with a guess of its X.
-    fn guess(
-        &mut self,
-        body: &ReducedBody<D>,
-        nodes: &Nodes<D>,
-        reference: &[[f64; D]],
-        samples: &Evaluation<D>,
-        now: &Instant<D>,
-    ) {
+    fn guess(&mut self, body: &ReducedBody<D>, nodes: &Nodes<D>, now: &Instant<D>) {
         let (h, count) = (nodes.grid.spacing(), self.per_axis.pow(D as u32));
-        let speeds = velocities(&samples.jacobians, now.rates).map(|v| vector::norm(&v));
+        let speeds = velocities(&now.samples.jacobians, now.rates).map(|v| vector::norm(&v));
         self.fastest = speeds.fold(0.0, f64::max);
         std::mem::swap(&mut self.known, &mut self.known_before);
         self.known.clear();
@@ -161,7 +151,7 @@ impl<const D: usize> Eulerian<D> {
                         Some(vector::add_scaled(&known.reference, time, &known.rate))
                     }
                     None => {
-                        let start = start.get_or_insert_with(|| Start::nearest(&centre, reference, samples));
+                        let start = start.get_or_insert_with(|| Start::nearest(&centre, now));
                         start.as_ref().map(|start| start.guess(&position))
                     }
                 };
@@ -251,10 +241,11 @@ struct Start<'a, const D: usize> {
 
 impl<'a, const D: usize> Start<'a, D> {
     /// The sample point nearest to `centre`; `None` where its F has no inverse.
-    fn nearest(centre: &[f64; D], reference: &'a [[f64; D]], samples: &'a Evaluation<D>) -> Option<Self> {
+    fn nearest(centre: &[f64; D], now: &Instant<'a, D>) -> Option<Self> {
+        let samples = now.samples;
         let sample = nearest(centre, &samples.positions);
         Some(Self {
-            reference: &reference[sample],
+            reference: &now.reference[sample],
             position: &samples.positions[sample],
             inverse: samples.gradients[sample].inverse()?,
         })

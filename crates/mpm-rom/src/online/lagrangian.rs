@@ -76,7 +76,8 @@ impl<const D: usize> Lagrangian<D> {
         map.evaluate(&self.all, now.latent, Wanted::default(), &mut self.evaluation);
         let positions = &self.evaluation.positions;
         if let Search::Lists { skin } = self.search {
-            self.list.rebuild(positions, now.samples, nodes.grid.spacing(), skin);
+            self.list
+                .rebuild(positions, &now.samples.positions, nodes.grid.spacing(), skin);
             self.candidates.select(&self.all, &self.list.points);
             self.refreshes += 1;
         }
@@ -91,6 +92,7 @@ impl<const D: usize> Lagrangian<D> {
         }
         map.evaluate(&self.candidates, now.latent, Wanted::default(), &mut self.evaluation);
         let positions = &self.evaluation.positions;
-        self.list.holds(positions, now.samples, nodes.grid.spacing(), skin)
+        self.list
+            .holds(positions, &now.samples.positions, nodes.grid.spacing(), skin)
     }
 }

@@ -109,7 +109,8 @@ impl<const D: usize> ReducedModel<'_, D> {
             latent: &self.coordinates.latent,
             rates: &self.coordinates.rates,
             step: self.step,
-            samples: &self.evaluation.positions,
+            reference: &self.samples.reference,
+            samples: &self.evaluation,
             inverted: self.options.inverted,
         };
         let (body, nodes, out) = (&self.body, &self.nodes, &mut self.quadrature);
@@ -120,8 +121,7 @@ impl<const D: usize> ReducedModel<'_, D> {
                 report.refreshes = scheme.refreshes;
             }
             Scheme::Eulerian(scheme) => {
-                let reference = &self.samples.reference;
-                scheme.place(body, &mut self.map, reference, &self.evaluation, nodes, &now, out)?;
+                scheme.place(body, &mut self.map, nodes, &now, out)?;
             }
         }
         report.limited = self.quadrature.limited;
