@@ -1,7 +1,5 @@
 //! What reduced runs gave, as tables.
 
-use std::fmt::Write;
-
 use super::{Choice, SampleCount, SuperResolved};
 use crate::online::StepReport;
 
@@ -145,7 +143,7 @@ pub(super) fn frames(runs: &[ReducedRow]) -> String {
         for frame in &run.frames {
             let value = |k: usize| some(frame.latent.get(k).copied());
             let latent: String = (0..coordinates).map(|k| format!(",{}", value(k))).collect();
-            let _ = writeln!(text, "{number},{:?},{:?}{latent}", frame.time, frame.error);
+            text += &format!("{number},{:?},{:?}{latent}\n", frame.time, frame.error);
         }
     }
     text

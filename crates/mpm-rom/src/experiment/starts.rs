@@ -1,7 +1,6 @@
 //! The best of several networks that differ in their seed.
 
 use std::cell::RefCell;
-use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -92,10 +91,8 @@ impl Start {
 fn table(starts: &[Start]) -> String {
     let mut text = "seed,reconstruction_error_percent,gradient_error,position_error_percent\n".to_owned();
     for start in starts {
-        // A String takes everything.
-        let _ = writeln!(
-            text,
-            "{},{},{},{}",
+        text += &format!(
+            "{},{},{},{}\n",
             start.seed, start.reconstruction_error, start.gradient_error, start.position_error
         );
     }

@@ -1,6 +1,5 @@
 //! A network, trained, and what is said of it.
 
-use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -125,10 +124,8 @@ fn losses(history: &[EpochReport]) -> String {
     for report in history {
         let terms = &report.terms;
         let (total, rate) = (terms.total(), report.rate);
-        // A String takes everything.
-        let _ = writeln!(
-            text,
-            "{},{rate:?},{total:?},{:?},{:?},{:?}",
+        text += &format!(
+            "{},{rate:?},{total:?},{:?},{:?},{:?}\n",
             report.epoch, terms.position, terms.gradient, terms.velocity
         );
     }
