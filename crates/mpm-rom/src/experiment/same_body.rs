@@ -1,11 +1,12 @@
 //! Whether other scenes have the body that is trained on.
 
 use mpm_scenes::Scene;
-use mpm_scenes::shape::{self, Shape};
+use mpm_scenes::shape::Shape;
 use mpm_tensor::vector;
 
 use super::{Experiment, ExperimentError};
 use crate::full_order::body_of;
+use crate::online::shapes_of;
 
 impl Experiment {
     /// Refuses scenes of reduced runs and of the super-resolution that have another body than that of the training: a network says something of any place, and errors there mean nothing.
@@ -46,11 +47,9 @@ struct Filled<const D: usize> {
 impl<const D: usize> Filled<D> {
     fn of(scene: &Scene) -> Result<Self, ExperimentError> {
         let body = body_of::<D>(scene, &[])?;
-        let shapes = scene.bodies.iter();
-        let shapes = shapes.map(|body| shape::build::<D>("bodies.shape", &body.shape));
         Ok(Self {
             positions: body.reference.iter().map(|x| vector::add(x, &body.centroid)).collect(),
-            shapes: shapes.collect::<Result<_, _>>().map_err(|fault| scene.error(fault))?,
+            shapes: shapes_of(scene)?,
             close: scene.grid.as_ref().map_or(0.0, |grid| 0.5 * grid.spacing),
         })
     }

@@ -5,7 +5,7 @@ use mpm_kernels::UniformGrid;
 use mpm_materials::{ElasticModuli, FixedCorotated, Hencky, Material, NeoHookean, ParameterError};
 use mpm_scenes::scene::{BasisName, MaterialTable, SolidTable, StressUpdateName, TransferKind};
 use mpm_scenes::shape::{self, Shape};
-use mpm_scenes::{HeldRegion, Kinematics, Population, Scene};
+use mpm_scenes::{HeldRegion, Kinematics, Population, Scene, SceneError};
 use mpm_tensor::vector;
 
 use super::OnlineError;
@@ -51,28 +51,19 @@ impl<const D: usize> ReducedBody<D> {
         let body = body_of::<D>(scene, &[])?;
         let population = Population::<D>::fill(scene).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &population).map_err(refused)?;
-        let Supported {
-            grid,
-            lower,
-            material,
-            steps_per_frame,
-        } = supported(scene)?;
-        let shapes = scene
-            .bodies
-            .iter()
-            .map(|body| shape::build::<D>("bodies.shape", &body.shape));
-        let origin: [f64; D] = std::array::from_fn(|a| lower.get(a).copied().unwrap_or(0.0));
+        let found: Supported<'_, D> = supported(scene)?;
+        let origin: [f64; D] = std::array::from_fn(|a| found.lower.get(a).copied().unwrap_or(0.0));
         Ok(Self {
             density: body.density,
             volumes: population.volumes,
-            material,
+            material: found.material,
             gravity: std::array::from_fn(|a| scene.gravity.get(a).copied().unwrap_or(0.0)),
             kinematics,
-            grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), grid),
-            time_step: scene.output.interval / steps_per_frame as f64,
-            steps_per_frame,
+            grid: UniformGrid::new(vector::subtract(&origin, &body.centroid), found.grid),
+            time_step: scene.output.interval / found.steps_per_frame as f64,
+            steps_per_frame: found.steps_per_frame,
             held: HeldRegion::of(scene).map_err(refused)?,
-            shapes: shapes.collect::<Result<_, _>>().map_err(refused)?,
+            shapes: shapes_of(scene)?,
             reference: body.reference,
             centroid: body.centroid,
         })
@@ -120,6 +111,16 @@ impl<const D: usize> ReducedBody<D> {
         let distances = self.shapes.iter().map(|shape| shape.distance(&x));
         distances.fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Where the bodies of a scene are at rest.
+///
+/// # Errors
+/// What the scene's own reader says.
+pub(crate) fn shapes_of<const D: usize>(scene: &Scene) -> Result<Vec<Box<dyn Shape<D>>>, SceneError> {
+    let shapes = scene.bodies.iter();
+    let shapes = shapes.map(|body| shape::build("bodies.shape", &body.shape));
+    shapes.collect::<Result<_, _>>().map_err(|fault| scene.error(fault))
 }
 
 fn unsupported<T>(scene: &Scene, field: &'static str, expected: &'static str) -> Result<T, OnlineError> {

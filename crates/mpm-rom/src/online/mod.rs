@@ -27,7 +27,7 @@ mod tests;
 mod weights;
 
 pub use body::ReducedBody;
-pub(crate) use body::check_supported;
+pub(crate) use body::{check_supported, shapes_of};
 pub use cubature::choose_cubature;
 pub use error::OnlineError;
 pub use greedy::choose_greedily;
