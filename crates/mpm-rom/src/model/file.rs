@@ -26,19 +26,10 @@ impl<const D: usize> Model<D> {
     /// # Errors
     /// [`TensorFileError`].
     pub fn write(&self, path: &Path) -> Result<(), TensorFileError> {
-        self.write_as((self.network.shape(), self.encoder.shape()), path)
-    }
-
-    /// Writes the file with these sizes in its header.
-    pub(super) fn write_as(
-        &self,
-        (network, encoder): (NetworkShape, EncoderShape),
-        path: &Path,
-    ) -> Result<(), TensorFileError> {
         let header = Header {
             dimension: D,
-            network,
-            encoder,
+            network: self.network.shape(),
+            encoder: self.encoder.shape(),
             scaling: self.network.scaling().clone(),
             summary: self.summary.clone(),
         };

@@ -8,7 +8,7 @@ use super::*;
 use crate::encoder::EncoderShape;
 use crate::manifold::{Evaluation, Manifold, NetworkShape, Scaling, Wanted};
 use crate::snapshots::{Body, Frame, Run, Snapshots};
-use crate::tensor_file::TensorFault as E;
+use crate::tensor_file::{TensorFault as E, TensorReader, TensorWriter};
 
 fn model() -> Model<2> {
     let scaling = Scaling {
@@ -157,37 +157,21 @@ fn errors_are_those_of_all_points_and_frames() {
 fn sizes_that_no_file_can_hold_are_an_error() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("model.safetensors");
-    let (network, encoder) = (
-        NetworkShape {
-            coordinates: 3,
-            width: 5,
-            depth: 2,
-        },
-        EncoderShape {
-            points: 50,
-            width: 4,
-            coordinates: 3,
-        },
-    );
     let huge = usize::MAX / 3;
-    let shapes = [
-        (NetworkShape { depth: huge, ..network }, encoder),
-        (NetworkShape { width: huge, ..network }, encoder),
-        (
-            network,
-            EncoderShape {
-                points: usize::MAX,
-                ..encoder
-            },
-        ),
-        (network, EncoderShape { width: huge, ..encoder }),
-    ];
-    for (network, encoder) in shapes {
-        model().write_as((network, encoder), &path).unwrap();
+    for (part, size, value) in [
+        ("network", "depth", huge),
+        ("network", "width", huge),
+        ("encoder", "points", usize::MAX),
+        ("encoder", "width", huge),
+    ] {
+        model().write(&path).unwrap();
+        let mut header: serde_json::Value = TensorReader::open(&path, ("model", 2)).unwrap().header().unwrap();
+        header[part][size] = value.into();
+        let mut file = TensorWriter::default();
+        file.add_list("network", model().network().parameters());
+        file.add_list("encoder", model().encoder().parameters());
+        file.write(&path, ("model", 2), &header).unwrap();
         let fault = Model::<2>::read(&path).map_err(|error| *error.fault);
-        assert!(
-            matches!(fault, Err(E::Shape { .. })),
-            "{network:?} {encoder:?}: {fault:?}"
-        );
+        assert!(matches!(fault, Err(E::Shape { .. })), "{part} {size}: {fault:?}");
     }
 }
