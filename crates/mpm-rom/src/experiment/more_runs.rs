@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::config::ReducedRuns;
-use super::{Cases, Experiment, ExperimentError};
+use super::{Cases, Experiment, ExperimentError, ReducedRuns};
 
 /// The key that such files have.
 pub(super) const TRAINED_AS: &str = "trained_as";
