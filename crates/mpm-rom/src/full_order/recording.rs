@@ -57,8 +57,8 @@ impl FramesBetween {
 pub struct Recording<const D: usize> {
     /// What all runs of the scene share, with the recorded points only. Its centroid is that of all points unless it has been changed with [`about`](Self::about).
     pub body: Body<D>,
-    /// Numbers of the recorded points, ascending; `None` for all.
-    points: Option<Vec<usize>>,
+    /// Numbers of the recorded points, ascending.
+    points: Vec<usize>,
     between: Option<FramesBetween>,
 }
 
@@ -70,14 +70,12 @@ impl<const D: usize> Recording<D> {
     pub fn of(scene: &Scene, parameters: &[String], count: Option<usize>) -> Result<Self, FullOrderError> {
         let mut body = body_of::<D>(scene, parameters)?;
         let all = body.reference.len();
-        let points = count.filter(|&count| count < all).map(|count| {
-            let mut numbers = index::sample(&mut ChaCha8Rng::seed_from_u64(0), all, count).into_vec();
-            numbers.sort_unstable();
-            numbers
-        });
-        if points.is_some() {
-            body.reference = each(&body.reference, points.as_deref(), |x| *x);
-        }
+        let mut points: Vec<usize> = match count {
+            Some(count) if count < all => index::sample(&mut ChaCha8Rng::seed_from_u64(0), all, count).into_vec(),
+            _ => (0..all).collect(),
+        };
+        points.sort_unstable();
+        body.reference = points.iter().map(|&p| body.reference[p]).collect();
         Ok(Self {
             body,
             points,
@@ -148,21 +146,19 @@ impl<const D: usize> Recording<D> {
         let (velocities, _) = snapshot.velocities.as_chunks::<D>();
         let (rows, _) = snapshot.deformation_gradients.as_chunks::<D>();
         let (gradients, _) = rows.as_chunks::<D>();
-        let points = self.points.as_deref();
-        let centroid = &self.body.centroid;
+        let positions = self
+            .recorded(positions)
+            .map(|x| vector::subtract(x, &self.body.centroid));
         Frame {
             time: snapshot.time,
-            positions: each(positions, points, |x| vector::subtract(x, centroid)),
-            deformation_gradients: each(gradients, points, |rows| Matrix(*rows)),
-            velocities: each(velocities, points, |v| *v),
+            positions: positions.collect(),
+            deformation_gradients: self.recorded(gradients).map(|rows| Matrix(*rows)).collect(),
+            velocities: self.recorded(velocities).copied().collect(),
         }
     }
-}
 
-/// The function of all entries, or of those at some places.
-fn each<T, U>(list: &[T], points: Option<&[usize]>, function: impl Fn(&T) -> U) -> Vec<U> {
-    match points {
-        None => list.iter().map(function).collect(),
-        Some(points) => points.iter().filter_map(|&p| list.get(p)).map(function).collect(),
+    /// The entries of the recorded points; fewer of a shorter list.
+    fn recorded<'a, T>(&'a self, list: &'a [T]) -> impl Iterator<Item = &'a T> {
+        self.points.iter().filter_map(|&p| list.get(p))
     }
 }
