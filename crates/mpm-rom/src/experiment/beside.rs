@@ -116,10 +116,10 @@ pub(super) fn beside<const D: usize>(
     let all_steps = (end / reduced.body().time_step).round();
     Ok(ReducedRow {
         samples: reduced.samples().len(),
-        error: own.percent(),
+        error: own.total.percent(),
         super_resolved: finer.map(|(comparison, finer)| SuperResolved {
             points: finer.snapshots.points(),
-            error: comparison.percent(),
+            error: comparison.total.percent(),
             tracer_error: finer.tracer_error,
         }),
         latent_return: latent_return(&rows),

@@ -12,7 +12,8 @@ use crate::snapshots::{Frame, Snapshots};
 pub(super) struct Comparison<const D: usize> {
     pub points: MaterialPoints<D>,
     evaluation: Evaluation<D>,
-    total: PositionError,
+    /// Of all frames but the first, where both runs start.
+    pub total: PositionError,
 }
 
 impl<const D: usize> Comparison<D> {
@@ -39,10 +40,5 @@ impl<const D: usize> Comparison<D> {
     pub fn distances(&self, frame: &Frame<D>) -> Vec<f64> {
         let pairs = self.evaluation.positions.iter().zip(&frame.positions);
         pairs.map(|(x, expected)| vector::distance(x, expected)).collect()
-    }
-
-    /// The error of all frames but the first, in per cent; `None` where there is none.
-    pub fn percent(&self) -> Option<f64> {
-        self.total.percent()
     }
 }
