@@ -10,7 +10,7 @@ use super::{ChoiceName, ExperimentError, ManifoldName, QuadratureName, SampleCou
 use crate::deformation_map::DeformationMap;
 use crate::manifold::Manifold;
 use crate::online::{Options, ReducedBody, ReducedModel, StepReport, Update};
-use crate::snapshots::Snapshots;
+use crate::snapshots::Frame;
 
 /// What a reduced run is made with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,14 +47,16 @@ impl Choice {
 }
 
 /// A full-order run to compare with.
-pub(super) struct Full<const D: usize> {
+pub(super) struct Full<'a, const D: usize> {
     pub case: usize,
-    /// Its only run.
-    pub snapshots: Snapshots<D>,
+    pub parameters: &'a [f64],
+    /// X_p of its points, and its frames.
+    pub reference: &'a [[f64; D]],
+    pub frames: &'a [Frame<D>],
     /// Its wall time.
     pub seconds: f64,
     /// The run of the same case with more points.
-    pub finer: Option<Finer<D>>,
+    pub finer: Option<&'a Finer<D>>,
 }
 
 /// Runs to the times of all frames of the full-order run, or up to the first error. The first frame, where both start, has no part in the error.
@@ -63,22 +65,21 @@ pub(super) fn beside<const D: usize>(
     manifold: &dyn Manifold<D>,
     guess: &[f64],
     body: ReducedBody<D>,
-    full: &Full<D>,
+    full: &Full<'_, D>,
     choice: &Choice,
     options: Options,
     mut files: Option<FrameFiles>,
 ) -> Result<ReducedRow, ExperimentError> {
-    let map = DeformationMap::new(manifold, full.snapshots.reference(), guess)?;
+    let map = DeformationMap::new(manifold, full.reference, guess)?;
     let mut reduced = ReducedModel::new(body, map, options)?;
-    let mut own = Comparison::new(&mut reduced, &full.snapshots);
+    let mut own = Comparison::new(&mut reduced, full.reference);
     let mut finer = full
         .finer
-        .as_ref()
         .filter(|_| choice.manifold == ManifoldName::Network)
-        .map(|finer| (Comparison::new(&mut reduced, &finer.snapshots), finer));
+        .map(|finer| (Comparison::new(&mut reduced, finer.snapshots.reference()), finer));
     let (mut report, mut seconds, mut outcome) = (StepReport::default(), 0.0, "finished".to_owned());
     let mut rows = Vec::new();
-    for (number, frame) in full.snapshots.frames().enumerate() {
+    for (number, frame) in full.frames.iter().enumerate() {
         let first = number == 0;
         if !first {
             let start = Instant::now();
@@ -112,7 +113,7 @@ pub(super) fn beside<const D: usize>(
         }
     }
     let steps = reduced.steps();
-    let end = full.snapshots.frames().last().map_or(0.0, |frame| frame.time);
+    let end = full.frames.last().map_or(0.0, |frame| frame.time);
     let all_steps = (end / reduced.body().time_step).round();
     Ok(ReducedRow {
         samples: reduced.samples().len(),
@@ -135,11 +136,10 @@ pub(super) fn beside<const D: usize>(
 }
 
 /// The row of a run without any step, of a body of so many points.
-pub(super) fn not_begun<const D: usize>(full: &Full<D>, choice: &Choice, points: usize) -> ReducedRow {
-    let runs = full.snapshots.runs().iter();
+pub(super) fn not_begun<const D: usize>(full: &Full<'_, D>, choice: &Choice, points: usize) -> ReducedRow {
     ReducedRow {
         case: full.case,
-        parameters: runs.flat_map(|run| run.parameters.clone()).collect(),
+        parameters: full.parameters.to_vec(),
         choice: *choice,
         variant: String::new(),
         samples: choice.samples.count().unwrap_or(points),

@@ -6,7 +6,7 @@ use crate::deformation_map::MaterialPoints;
 use crate::manifold::{Evaluation, Wanted};
 use crate::online::ReducedModel;
 use crate::position_error::PositionError;
-use crate::snapshots::{Frame, Snapshots};
+use crate::snapshots::Frame;
 
 /// The points of a full-order run as a reduced model sees them, and how far they have been apart so far.
 pub(super) struct Comparison<const D: usize> {
@@ -17,9 +17,9 @@ pub(super) struct Comparison<const D: usize> {
 }
 
 impl<const D: usize> Comparison<D> {
-    pub fn new(reduced: &mut ReducedModel<'_, D>, full: &Snapshots<D>) -> Self {
+    pub fn new(reduced: &mut ReducedModel<'_, D>, reference: &[[f64; D]]) -> Self {
         Self {
-            points: reduced.prepare(full.reference()),
+            points: reduced.prepare(reference),
             evaluation: Evaluation::default(),
             total: PositionError::default(),
         }

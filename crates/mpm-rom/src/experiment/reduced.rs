@@ -132,9 +132,11 @@ pub fn run<const D: usize>(
         };
         let full = Full {
             case,
-            snapshots,
+            parameters: values,
+            reference: snapshots.reference(),
+            frames: &snapshots.runs()[0].frames,
             seconds: effort.time.as_secs_f64(),
-            finer,
+            finer: finer.as_ref(),
         };
         for choice in &choices {
             let manifold = family(choice.manifold, choice.network);

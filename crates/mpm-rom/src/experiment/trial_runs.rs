@@ -5,9 +5,7 @@ use super::chosen::{Best, Chosen};
 use super::sampling::Sampling;
 use super::trials::Trials;
 use super::{ChoiceName, ExperimentError, SampleCount};
-use crate::full_order::FullOrderError;
 use crate::online::{OnlineError, ReducedBody, SampleChoice};
-use crate::snapshots::{Run, Snapshots};
 
 /// Frames of each training run, at most.
 const FRAMES: usize = 91;
@@ -64,15 +62,12 @@ impl<const D: usize> Sampling<'_, D> {
     ) -> Result<f64, ExperimentError> {
         let (mut errors, mut mean_square) = (Vec::new(), 0.0);
         for &case in &trials.0 {
-            let whole = &self.snapshots.runs()[case];
-            let part = Run {
-                parameters: whole.parameters.clone(),
-                frames: whole.frames.iter().take(FRAMES).cloned().collect(),
-            };
-            let snapshots = Snapshots::new(self.snapshots.body().clone(), vec![part]).map_err(FullOrderError::from)?;
+            let run = &self.snapshots.runs()[case];
             let full = Full {
                 case,
-                snapshots,
+                parameters: &run.parameters,
+                reference: self.snapshots.reference(),
+                frames: &run.frames[..run.frames.len().min(FRAMES)],
                 seconds: 0.0,
                 finer: None,
             };
