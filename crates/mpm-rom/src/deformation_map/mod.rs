@@ -37,7 +37,6 @@ pub enum DeformationMapError {
 pub struct DeformationMap<'a, const D: usize> {
     manifold: &'a dyn Manifold<D>,
     rest: Vec<f64>,
-    at_rest: Evaluation<D>,
 }
 
 impl<'a, const D: usize> DeformationMap<'a, D> {
@@ -61,21 +60,13 @@ impl<'a, const D: usize> DeformationMap<'a, D> {
             |y: &[f64], wanted: Wanted, out: &mut Evaluation<D>| manifold.evaluate(reference, y, wanted, out);
         let found = GaussNewton::default().minimise(reference, &mut rest, &Settings::default(), evaluate);
         found.map_err(DeformationMapError::Rest)?;
-        Ok(Self {
-            manifold,
-            rest,
-            at_rest: Evaluation::default(),
-        })
+        Ok(Self { manifold, rest })
     }
 
     /// The map with this x̂₀.
     #[cfg(test)]
     pub(crate) fn at(manifold: &'a dyn Manifold<D>, rest: Vec<f64>) -> Self {
-        Self {
-            manifold,
-            rest,
-            at_rest: Evaluation::default(),
-        }
+        Self { manifold, rest }
     }
 
     /// r.
@@ -88,55 +79,43 @@ impl<'a, const D: usize> DeformationMap<'a, D> {
         &self.rest
     }
 
-    /// What does not depend on x̂ at these points: a(X) and I − ∇g̃(X, x̂₀). `out` is overwritten.
-    pub fn prepare(&mut self, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
-        out.clear();
-        out.reference.extend_from_slice(reference);
-        self.manifold
-            .evaluate(reference, &self.rest, Wanted::GRADIENTS, &mut self.at_rest);
-        let pairs = reference.iter().zip(&self.at_rest.positions);
-        out.offsets.extend(pairs.map(|(x, g)| vector::subtract(x, g)));
-        let gradients = self.at_rest.gradients.iter();
-        out.gradient_offsets
-            .extend(gradients.map(|gradient| Matrix::IDENTITY - *gradient));
-    }
-
-    /// As [`prepare`](Self::prepare), into new storage.
-    pub fn prepared(&mut self, reference: &[[f64; D]]) -> MaterialPoints<D> {
-        let mut points = MaterialPoints::default();
-        self.prepare(reference, &mut points);
-        points
+    /// What does not depend on x̂ at these points: a(X) and I − ∇g̃(X, x̂₀).
+    pub fn prepare(&self, reference: &[[f64; D]]) -> MaterialPoints<D> {
+        let at_rest = self.at_rest(reference, Wanted::GRADIENTS);
+        let gradients = at_rest.gradients.iter();
+        MaterialPoints {
+            reference: reference.to_vec(),
+            offsets: offsets(reference, &at_rest),
+            gradient_offsets: gradients.map(|gradient| Matrix::IDENTITY - *gradient).collect(),
+        }
     }
 
     /// A table of a(X) with this spacing, in the box around these points and `margin` beyond it; `None` where it would be too large.
     pub fn tabulate(&self, reference: &[[f64; D]], margin: f64, spacing: f64) -> Option<AtRestTable<D>> {
         AtRestTable::around(reference, margin, spacing, |nodes| {
-            let mut there = Evaluation::default();
-            self.manifold.evaluate(nodes, &self.rest, Wanted::default(), &mut there);
-            let pairs = nodes.iter().zip(&there.positions);
-            pairs.map(|(x, g)| vector::subtract(x, g)).collect()
+            offsets(nodes, &self.at_rest(nodes, Wanted::default()))
         })
     }
 
     /// As [`prepare`](Self::prepare), from a table; points outside it are computed.
-    pub fn prepare_from(&mut self, table: &AtRestTable<D>, reference: &[[f64; D]], out: &mut MaterialPoints<D>) {
+    pub fn prepare_from(&self, table: &AtRestTable<D>, reference: &[[f64; D]]) -> MaterialPoints<D> {
         let found: Vec<_> = reference.par_iter().with_min_len(256).map(|x| table.at(x)).collect();
-        let outside: Vec<[f64; D]> = reference
-            .iter()
-            .zip(&found)
-            .filter(|(_, found)| found.is_none())
-            .map(|(x, _)| *x)
-            .collect();
-        self.prepare(&outside, out);
-        let mut computed = out.offsets.drain(..).zip(out.gradient_offsets.drain(..));
-        let (offsets, gradients) = found
-            .into_iter()
-            .filter_map(|found| found.or_else(|| computed.next()))
-            .unzip();
-        drop(computed);
-        (out.offsets, out.gradient_offsets) = (offsets, gradients);
-        out.reference.clear();
-        out.reference.extend_from_slice(reference);
+        let outside = reference.iter().zip(&found).filter(|(_, found)| found.is_none());
+        let computed = self.prepare(&outside.map(|(x, _)| *x).collect::<Vec<_>>());
+        let mut computed = computed.offsets.into_iter().zip(computed.gradient_offsets);
+        let all = found.into_iter().filter_map(|found| found.or_else(|| computed.next()));
+        let (offsets, gradient_offsets) = all.unzip();
+        MaterialPoints {
+            reference: reference.to_vec(),
+            offsets,
+            gradient_offsets,
+        }
+    }
+
+    fn at_rest(&self, reference: &[[f64; D]], wanted: Wanted) -> Evaluation<D> {
+        let mut there = Evaluation::default();
+        self.manifold.evaluate(reference, &self.rest, wanted, &mut there);
+        there
     }
 
     /// g, and where wanted F = ∇g and ∂g/∂x̂, at prepared points; `out` is overwritten.
@@ -161,4 +140,10 @@ impl<'a, const D: usize> DeformationMap<'a, D> {
             *gradient += *offset;
         }
     }
+}
+
+/// a(X) = X − g̃(X, x̂₀).
+fn offsets<const D: usize>(reference: &[[f64; D]], at_rest: &Evaluation<D>) -> Vec<[f64; D]> {
+    let pairs = reference.iter().zip(&at_rest.positions);
+    pairs.map(|(x, g)| vector::subtract(x, g)).collect()
 }

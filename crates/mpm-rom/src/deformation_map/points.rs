@@ -14,13 +14,6 @@ pub struct MaterialPoints<const D: usize> {
 }
 
 impl<const D: usize> MaterialPoints<D> {
-    /// No points; the storage stays.
-    pub fn clear(&mut self) {
-        self.reference.clear();
-        self.offsets.clear();
-        self.gradient_offsets.clear();
-    }
-
     /// The points of `all` with these numbers, in this order; numbers that there are not are left out.
     pub fn select(&mut self, all: &Self, numbers: &[u32]) {
         choose(&mut self.reference, &all.reference, numbers);

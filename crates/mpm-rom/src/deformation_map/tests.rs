@@ -44,8 +44,8 @@ impl Manifold<3> for Bent {
 fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
     let (reference, mut out) = (points(), Evaluation::default());
     let bent = Bent(Fields::bending(3), SHIFTED);
-    let mut map = DeformationMap::new(&bent, &reference, &[0.2; 3]).expect("solvable");
-    let prepared = map.prepared(&reference);
+    let map = DeformationMap::new(&bent, &reference, &[0.2; 3]).expect("solvable");
+    let prepared = map.prepare(&reference);
     let rest = map.rest().to_vec();
     map.evaluate(&prepared, &rest, Wanted::ALL, &mut out);
     for ((g, x), gradient) in out.positions.iter().zip(&reference).zip(&out.gradients) {
@@ -57,8 +57,8 @@ fn at_rest_every_point_is_where_it_was_and_nothing_is_deformed() {
 #[test]
 fn the_gradient_is_that_of_the_map() {
     let (reference, fields) = (points(), Fields::bending(4));
-    let mut map = DeformationMap::new(&fields, &reference, &[0.0; 4]).expect("solvable");
-    let (prepared, mut out) = (map.prepared(&reference), Evaluation::default());
+    let map = DeformationMap::new(&fields, &reference, &[0.0; 4]).expect("solvable");
+    let (prepared, mut out) = (map.prepare(&reference), Evaluation::default());
     // F against central differences of g in X, away from rest.
     let (latent, step) = ([0.2, -0.1, 0.05, 0.1], 1e-5);
     map.evaluate(&prepared, &latent, Wanted::GRADIENTS, &mut out);
@@ -69,7 +69,7 @@ fn the_gradient_is_that_of_the_map() {
                 .iter()
                 .map(|x| std::array::from_fn(|a| x[a] + if a == b { step } else { 0.0 }))
                 .collect();
-            let there = map.prepared(&moved);
+            let there = map.prepare(&moved);
             map.evaluate(&there, &latent, Wanted::default(), &mut out);
             out.positions.clone()
         });
@@ -90,7 +90,7 @@ fn a_wrong_start_is_refused() {
 #[test]
 fn a_table_gives_what_is_computed() {
     let (reference, bent) = (points(), Bent(Fields::bending(3), WAVY));
-    let mut map = DeformationMap::new(&bent, &reference, &[0.2; 3]).expect("solvable");
+    let map = DeformationMap::new(&bent, &reference, &[0.2; 3]).expect("solvable");
     let table = map.tabulate(&reference, 0.1, 0.1).expect("small");
     // The last one is outside of the table.
     let places: Vec<[f64; 3]> = reference
@@ -98,9 +98,8 @@ fn a_table_gives_what_is_computed() {
         .map(|x| vector::scale(x, 0.97))
         .chain([[5.0; 3]])
         .collect();
-    let mut found = MaterialPoints::default();
-    map.prepare_from(&table, &places, &mut found);
-    let expected = map.prepared(&places);
+    let found = map.prepare_from(&table, &places);
+    let expected = map.prepare(&places);
     assert_eq!(
         (found.reference, found.offsets.len()),
         (expected.reference, places.len())

@@ -72,11 +72,11 @@ pub(super) fn beside<const D: usize>(
 ) -> Result<ReducedRow, ExperimentError> {
     let map = DeformationMap::new(manifold, full.reference, guess)?;
     let mut reduced = ReducedModel::new(body, map, options)?;
-    let mut own = Comparison::new(&mut reduced, full.reference);
+    let mut own = Comparison::new(&reduced, full.reference);
     let mut finer = full
         .finer
         .filter(|_| choice.manifold == ManifoldName::Network)
-        .map(|finer| (Comparison::new(&mut reduced, finer.snapshots.reference()), finer));
+        .map(|finer| (Comparison::new(&reduced, finer.snapshots.reference()), finer));
     let (mut report, mut seconds, mut outcome) = (StepReport::default(), 0.0, "finished".to_owned());
     let mut rows = Vec::new();
     for (number, frame) in full.frames.iter().enumerate() {

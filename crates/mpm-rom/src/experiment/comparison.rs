@@ -17,7 +17,7 @@ pub(super) struct Comparison<const D: usize> {
 }
 
 impl<const D: usize> Comparison<D> {
-    pub fn new(reduced: &mut ReducedModel<'_, D>, reference: &[[f64; D]]) -> Self {
+    pub fn new(reduced: &ReducedModel<'_, D>, reference: &[[f64; D]]) -> Self {
         Self {
             points: reduced.prepare(reference),
             evaluation: Evaluation::default(),

@@ -8,7 +8,7 @@ use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
 use super::support::Support;
 use super::{OnlineError, ReducedBody};
-use crate::deformation_map::{AtRestTable, DeformationMap, MaterialPoints};
+use crate::deformation_map::{AtRestTable, DeformationMap};
 use crate::manifold::{Evaluation, velocities};
 use crate::nearest::nearest;
 
@@ -47,7 +47,6 @@ pub(super) struct Eulerian<const D: usize> {
     /// Points whose X is looked for, with guesses of it.
     sought: Vec<Sought<D>>,
     guesses: Vec<[f64; D]>,
-    prepared: MaterialPoints<D>,
     evaluation: Evaluation<D>,
 }
 
@@ -82,7 +81,6 @@ impl<const D: usize> Eulerian<D> {
             known_before: Vec::new(),
             sought: Vec::new(),
             guesses: Vec::new(),
-            prepared: MaterialPoints::default(),
             evaluation: Evaluation::default(),
         }
     }
@@ -100,7 +98,7 @@ impl<const D: usize> Eulerian<D> {
     pub fn place(
         &mut self,
         body: &ReducedBody<D>,
-        map: &mut DeformationMap<'_, D>,
+        map: &DeformationMap<'_, D>,
         nodes: &Nodes<D>,
         now: &Instant<D>,
         out: &mut QuadraturePoints<D>,
@@ -113,11 +111,11 @@ impl<const D: usize> Eulerian<D> {
             if self.sought.is_empty() {
                 break;
             }
-            match &self.table {
-                Some(table) => map.prepare_from(table, &self.guesses, &mut self.prepared),
-                None => map.prepare(&self.guesses, &mut self.prepared),
-            }
-            map.evaluate_moving(&self.prepared, now.latent, now.rates, &mut self.evaluation);
+            let prepared = match &self.table {
+                Some(table) => map.prepare_from(table, &self.guesses),
+                None => map.prepare(&self.guesses),
+            };
+            map.evaluate_moving(&prepared, now.latent, now.rates, &mut self.evaluation);
             self.accept(body, now, tolerance, out)?;
         }
         Ok(())

@@ -47,7 +47,7 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
 
     fn with_samples(
         body: ReducedBody<D>,
-        mut map: DeformationMap<'a, D>,
+        map: DeformationMap<'a, D>,
         options: Options,
         sample_numbers: Vec<u32>,
     ) -> Result<Self, OnlineError> {
@@ -55,10 +55,10 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
         let own = options.samples.weights()?;
         let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
         let of_samples = sample_numbers.iter().filter_map(|&p| body.reference.get(p as usize));
-        let samples = map.prepared(&of_samples.copied().collect::<Vec<_>>());
+        let samples = map.prepare(&of_samples.copied().collect::<Vec<_>>());
         let scheme = match options.quadrature {
             Quadrature::Lagrangian { search } => {
-                Scheme::Lagrangian(Lagrangian::new(search, map.prepared(&body.reference)))
+                Scheme::Lagrangian(Lagrangian::new(search, map.prepare(&body.reference)))
             }
             Quadrature::Eulerian { per_axis } => Scheme::Eulerian(Eulerian::tabulated(per_axis, &map, &body)),
         };
@@ -123,8 +123,8 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
     }
 
     /// Points of the body for [`evaluate`](Self::evaluate), by their reference positions: its own, or others (super-resolution).
-    pub fn prepare(&mut self, reference: &[[f64; D]]) -> MaterialPoints<D> {
-        self.map.prepared(reference)
+    pub fn prepare(&self, reference: &[[f64; D]]) -> MaterialPoints<D> {
+        self.map.prepare(reference)
     }
 
     /// g, F and ∂g/∂x̂ at prepared points now.

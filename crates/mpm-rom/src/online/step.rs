@@ -121,7 +121,7 @@ impl<const D: usize> ReducedModel<'_, D> {
                 report.refreshes = scheme.refreshes;
             }
             Scheme::Eulerian(scheme) => {
-                scheme.place(body, &mut self.map, nodes, &now, out)?;
+                scheme.place(body, &self.map, nodes, &now, out)?;
             }
         }
         report.limited = self.quadrature.limited;

@@ -76,13 +76,12 @@ fn free_fall_is_exact_with_every_scheme() {
 }
 
 /// All points of a model's body.
-fn all_points(model: &mut ReducedModel<'_, 2>) -> MaterialPoints<2> {
-    let reference = model.body().reference.clone();
-    model.prepare(&reference)
+fn all_points(model: &ReducedModel<'_, 2>) -> MaterialPoints<2> {
+    model.prepare(&model.body().reference)
 }
 
 /// v_p of all points after one full-order step from the model's state.
-fn full_order_step(model: &mut ReducedModel<'_, 2>) -> (Vec<[f64; 2]>, Evaluation<2>) {
+fn full_order_step(model: &ReducedModel<'_, 2>) -> (Vec<[f64; 2]>, Evaluation<2>) {
     let (mut there, mut moving) = (Evaluation::default(), Evaluation::default());
     let points = all_points(model);
     model.evaluate(&points, Wanted::ALL, &mut there);
@@ -131,7 +130,7 @@ fn a_lagrangian_step_is_the_projected_full_order_step() {
         model.coordinates.latent = vec![0.3, -0.2, 0.4, 0.1];
         model.coordinates.rates = vec![1.0, 0.5, -2.0, 0.3];
         let before = model.latent().to_vec();
-        let (full, there) = full_order_step(&mut model);
+        let (full, there) = full_order_step(&model);
         let report = model.step().expect("a step");
         assert!(report.nodes > 9 && (samples != SampleChoice::All || report.quadrature_points == full.len()));
         // The naive projection: the same sum over the sample points.

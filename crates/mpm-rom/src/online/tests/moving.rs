@@ -28,7 +28,7 @@ fn points_of_space_give_nearly_the_motion_of_the_material_points() {
         (0..10).for_each(|_| {
             advance_frame(&mut model).expect("a frame");
         });
-        let (points, mut there) = (all_points(&mut model), Evaluation::default());
+        let (points, mut there) = (all_points(&model), Evaluation::default());
         model.evaluate(&points, Wanted::default(), &mut there);
         (there.positions, points.reference)
     };
@@ -92,7 +92,7 @@ fn held_nodes_that_turn_carry_the_body() {
         Update::PositionVelocity,
     );
     let mut model = model(&text, Fields::affine(), chosen);
-    let (points, mut there) = (all_points(&mut model), Evaluation::default());
+    let (points, mut there) = (all_points(&model), Evaluation::default());
     for frame in 1..=5 {
         advance_frame(&mut model).expect("a frame");
         model.evaluate(&points, Wanted::default(), &mut there);
