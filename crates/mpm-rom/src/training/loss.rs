@@ -1,7 +1,5 @@
 //! Chen et al. 2023, Eq. 31, and its reverse pass.
 
-use std::ops::AddAssign;
-
 use serde::{Deserialize, Serialize};
 
 use crate::encoder::{Encoder, EncoderTape};
@@ -25,13 +23,12 @@ impl Terms {
     pub fn total(&self) -> f64 {
         self.position + self.gradient + self.velocity
     }
-}
 
-impl AddAssign for Terms {
-    fn add_assign(&mut self, other: Self) {
-        self.position += other.position;
-        self.gradient += other.gradient;
-        self.velocity += other.velocity;
+    /// Adds a share of other terms.
+    pub(super) fn add(&mut self, share: f64, other: &Self) {
+        self.position += share * other.position;
+        self.gradient += share * other.gradient;
+        self.velocity += share * other.velocity;
     }
 }
 

@@ -158,12 +158,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
                 let step = self.descent.steps - 1;
                 return Err(TrainingError::NotFinite { epoch, step, loss });
             }
-            let share = batch.len() as f64 / pairs.len() as f64;
-            terms += Terms {
-                position: share * of_batch.position,
-                gradient: share * of_batch.gradient,
-                velocity: share * of_batch.velocity,
-            };
+            terms.add(batch.len() as f64 / pairs.len() as f64, &of_batch);
         }
         Ok(EpochReport {
             epoch,
@@ -204,7 +199,7 @@ impl<'a, const D: usize> Trainer<'a, D> {
         let mut terms = Terms::default();
         let mut gradient = vec![0.0; self.network.parameters().len() + self.encoder.parameters().len()];
         for worker in &workers[..batch.len()] {
-            terms += worker.terms;
+            terms.add(1.0, &worker.terms);
             for (sum, part) in gradient.iter_mut().zip(worker.network.iter().chain(&worker.encoder)) {
                 *sum += part;
             }
