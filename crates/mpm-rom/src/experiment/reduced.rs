@@ -53,7 +53,9 @@ pub fn run<const D: usize>(
         .iter()
         .map(|(_, model)| model.encoder().encode(&trained_on.reference));
     let at_rest: Vec<Vec<f64>> = at_rest.collect::<Result<_, _>>()?;
-    let training = training::<D>(experiment, directory)?;
+    // Linear manifolds and choices of sample points are made of the training data.
+    let is_needed = experiment.run.manifold.contains(&ManifoldName::Linear) || experiment.run.chooses_on_training();
+    let training: Option<Snapshots<D>> = is_needed.then(|| experiment.read_data(directory)).transpose()?;
     if let Some(snapshots) = &training
         && snapshots.points() != trained_on.reference.len()
     {
@@ -250,15 +252,4 @@ fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
         }
     }
     all
-}
-
-/// The training data, where linear manifolds or the choice of sample points need them.
-fn training<const D: usize>(
-    experiment: &Experiment,
-    directory: &Path,
-) -> Result<Option<Snapshots<D>>, ExperimentError> {
-    if experiment.run.manifold.contains(&ManifoldName::Linear) || experiment.run.chooses_on_training() {
-        return Ok(Some(experiment.read_data(directory)?));
-    }
-    Ok(None)
 }
