@@ -106,10 +106,8 @@ impl Eigenbasis {
             gradient.transposed_times(&gradient),
         ];
         for (covariance, product) in self.covariances.iter_mut().zip(products) {
-            for j in 0..product.columns() {
-                for (entry, new) in covariance.column_mut(j).iter_mut().zip(product.column(j)) {
-                    *entry = COVARIANCE_DECAY * *entry + (1.0 - COVARIANCE_DECAY) * new;
-                }
+            for (entry, new) in covariance.entries_mut().zip(product.entries()) {
+                *entry = COVARIANCE_DECAY * *entry + (1.0 - COVARIANCE_DECAY) * new;
             }
         }
         if step % INTERVAL == 1 {
