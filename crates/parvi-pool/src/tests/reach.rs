@@ -38,8 +38,7 @@ fn nothing_is_beyond_a_normal_law() {
 }
 
 /// Beyond the radius r the share of the second moments of t_ν with ν = 3 in the plane is (3 u^(−1/2) − u^(−3/2))/2, u = 1 + r²/3, and the mass is u^(−3/2): 0.37 beyond twice the
-/// radius that 0.9 of the mass is within. It is
-/// taken of what is known so far, of which the tail may be missing: of 0.63 of all, at worst.
+/// radius that 0.9 of the mass is within. Shares are of what is known so far, which may lack all of that.
 #[test]
 fn shares_of_second_moments_are_those_of_the_law() {
     let (points, kernels) = beyond(&StudentT::new(3.0).unwrap());
