@@ -33,7 +33,13 @@ impl<const D: usize> CloudMoments<D> {
     pub fn new(cloud: &Cloud<'_, D>) -> Result<Self, MetricError> {
         let mut mean = [0.0; D];
         for axis in 0..D {
-            mean[axis] = finite(NAME, sum(cloud.iter().map(|(point, weight)| weight * point[axis])))?;
+            let values = cloud.iter().filter(|(_, weight)| *weight > 0.0).map(|(x, _)| x[axis]);
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (x.min(low), x.max(high))
+            });
+            let average = finite(NAME, sum(cloud.iter().map(|(point, weight)| weight * point[axis])))?;
+            // Rounding may take the mean beyond the points: of equal ones it would be another number, and they would have a spread.
+            mean[axis] = average.max(low).min(high);
         }
         let mut covariance = Matrix([[0.0; D]; D]);
         for i in 0..D {

@@ -63,14 +63,15 @@ impl SortedSample {
         2.0 * total.value()
     }
 
-    /// The value at which F passes `level`; where F equals it (to rounding) along a gap, the middle of the gap.
+    /// The value at which F passes `level`; where F equals it (to rounding) along a gap, the middle of the gap. At level 1 the largest value, however little it weighs.
     pub(crate) fn quantile(&self, level: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
-        let index = self
-            .cumulative
-            .partition_point(|f| *f < level - ROUNDING)
-            .min(self.values.len() - 1);
-        let next = (index + 1).min(self.values.len() - 1);
+        let last = self.values.len() - 1;
+        if level >= 1.0 {
+            return self.values[last];
+        }
+        let index = self.cumulative.partition_point(|f| *f < level - ROUNDING).min(last);
+        let next = (index + 1).min(last);
         let on_gap = level > ROUNDING && (self.cumulative[index] - level).abs() <= ROUNDING;
         if on_gap {
             0.5 * self.values[index] + 0.5 * self.values[next]

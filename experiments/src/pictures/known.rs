@@ -21,6 +21,8 @@ const PROPOSALS: usize = 400_000;
 const NODES: [usize; 2] = [201, 801];
 /// How far the integrals over all and over every second node may differ.
 const TOLERANCE: f64 = 1e-3;
+/// How much of its mean density a marginal may have at an end of its axis: what has more goes on beyond the box, as a posterior that is far from the normal law at its mode.
+const LEFT_AT_ENDS: f64 = 0.01;
 /// Share of the weight that the lightest points of a pool may take with them: they are many, and not to be seen.
 const LEFT_OUT: f64 = 1e-5;
 /// The domain of a quadrature over the box that holds nearly all of the mass.
@@ -132,7 +134,7 @@ fn draws<const D: usize>(target: &dyn CatalogueTarget<D>, inside: impl Fn(&[f64;
     (draws.len() >= FEWEST_DRAWS).then_some(draws)
 }
 
-/// Marginals, and for d = 2 the joint density, on the first grid that settles; over the box around a mesh where there is one, outside of which the density is 0.
+/// Marginals, and for d = 2 the joint density, on the first grid that settles, where they fall off towards its ends; over the box around a mesh where there is one, outside of which the density is 0.
 fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Within<D>>) -> Option<Known> {
     if D > 2 {
         return None;
@@ -153,7 +155,15 @@ fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Wit
     });
     let grid = grids.find(|grid| grid.settles(TOLERANCE))?;
     let marginal = |axis: usize| grid.marginal(axis).map(|(x, y)| Curve { x, y });
-    let marginals = (0..D).map(marginal).collect();
+    let marginals: Vec<_> = (0..D).map(marginal).collect();
+    let falls_off = |curve: &Curve| {
+        let mean = curve.y.iter().sum::<f64>() / curve.y.len() as f64;
+        let ends = curve.y.first().into_iter().chain(curve.y.last());
+        ends.copied().fold(0.0, f64::max) < LEFT_AT_ENDS * mean
+    };
+    if mesh.is_none() && !marginals.iter().flatten().all(falls_off) {
+        return None;
+    }
     Some(Known::Quadrature {
         marginals,
         pairs: if D == 2 { vec![in_the_plane(grid)] } else { Vec::new() },
@@ -203,7 +213,7 @@ fn density<const D: usize>(
 
 #[cfg(test)]
 mod tests {
-    use parvi_targets::{Gaussian, Ring};
+    use parvi_targets::{Gaussian, LogisticRegression, RegressionData, Ring};
     use statrs::distribution::{Continuous, Normal};
 
     use super::*;
@@ -269,6 +279,18 @@ mod tests {
         assert_eq!(points[0], [4.0]);
         let draws = Known::Draws(Vec::new()).or_pool(Some(&pool));
         assert_eq!(draws.label(), "target (exact draws)");
+    }
+
+    /// Under a wide prior the posterior of separated responses is nothing like the normal law at its mode, which the box is made of.
+    #[test]
+    fn a_density_that_goes_on_beyond_the_box_is_not_integrated() {
+        let rows: Vec<(bool, Vec<f64>)> = (-20..20).map(|i| (i >= 0, vec![f64::from(i) + 0.5])).collect();
+        let of_prior = |deviation: f64| {
+            let data = RegressionData::new("separated", &["x"], &rows).unwrap();
+            LogisticRegression::<2>::with_prior("logistic", data, deviation).unwrap()
+        };
+        assert!(quadrature(&of_prior(1e4), None).is_none());
+        assert!(quadrature(&of_prior(1.0), None).is_some());
     }
 
     #[test]

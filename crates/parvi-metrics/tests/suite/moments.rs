@@ -23,6 +23,27 @@ fn a_small_case_by_hand() {
     assert!(CloudMoments::new(&Cloud::new(&[[1.0]]).unwrap()).unwrap().skewness[0].is_nan());
 }
 
+/// The weighted sum of equal numbers is not always that number.
+#[test]
+fn an_axis_without_spread_has_none_to_rounding() {
+    for value in [-0.185_172_028_205_449_65, 1_000_000.676_659_944_2, 0.1] {
+        for count in [3, 5, 65] {
+            let points = vec![[value]; count];
+            let moments = CloudMoments::new(&Cloud::new(&points).unwrap()).unwrap();
+            assert_eq!((moments.mean[0], moments.covariance.0[0][0]), (value, 0.0));
+            assert!(moments.skewness[0].is_nan() && moments.kurtosis[0].is_nan());
+        }
+    }
+}
+
+#[test]
+fn the_outermost_quantiles_are_the_outermost_points_of_any_weight() {
+    let points = [[-9.0], [0.0], [1.0], [9.0]];
+    let weights = [1e-13, 1.0, 1.0, 1e-13];
+    let found = quantiles(&Cloud::weighted(&points, &weights).unwrap(), &[0.0, 0.5, 1.0]).unwrap();
+    assert_eq!(found, [[-9.0], [0.5], [9.0]]);
+}
+
 /// As in the headers of files, x1 is the first axis.
 #[test]
 fn messages_count_axes_from_one() {

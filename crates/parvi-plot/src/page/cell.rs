@@ -79,6 +79,8 @@ pub fn escaped(text: &str) -> String {
         match character {
             '&' => shown.push_str("&amp;"),
             '<' => shown.push_str("&lt;"),
+            // A line's end is one of the table's.
+            '\n' | '\r' => shown.push(' '),
             '*' | '`' | '[' | ']' | '\\' | '~' => shown.extend(['\\', character]),
             _ => shown.push(character),
         }

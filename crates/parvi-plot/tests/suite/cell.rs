@@ -1,6 +1,6 @@
-//! Numbers as pages write them.
+//! Numbers and texts as pages write them.
 
-use parvi_plot::page::{MISSING, number};
+use parvi_plot::page::{MISSING, escaped, number};
 
 #[test]
 fn numbers_have_three_digits() {
@@ -9,4 +9,10 @@ fn numbers_have_three_digits() {
         .map(number)
         .collect();
     assert_eq!(texts, ["0", "1.00", "-0.0123", "12346", "1.00e-5", "2.50e7", MISSING]);
+}
+
+/// A quoted name of a column may have several lines.
+#[test]
+fn a_text_stays_within_its_line() {
+    assert_eq!(escaped("two\nlines, a<b"), "two lines, a&lt;b");
 }

@@ -40,6 +40,10 @@ impl<Y: Response> RegressionTable<Y> {
         let mut record = StringRecord::new();
         let mut covariates = Vec::with_capacity(names.len() - 1);
         while reader.read_record(&mut record).map_err(|e| unreadable(source, &e))? {
+            // Nothing but blanks.
+            if record.iter().eq([""]) {
+                continue;
+            }
             let row = Row {
                 record: &record,
                 source,

@@ -21,7 +21,7 @@ fn message(text: &str) -> String {
 
 #[test]
 fn a_good_file_is_read_as_it_is() {
-    let data = read("\u{feff}y, age ,dose\n1,30,0.5\n\n 0 ,-2e1,7\n1.0,3,4\n").unwrap();
+    let data = read("\u{feff}y, age ,dose\n1,30,0.5\n\n 0 ,-2e1,7\n1.0,3,4\n  \t\r\n \n").unwrap();
     assert_eq!(data.names(), ["intercept", "age", "dose"]);
     assert_eq!(data.responses(), [true, false, true]);
     assert_eq!(data.covariates(1).unwrap(), [1.0, -20.0, 7.0]);
