@@ -186,12 +186,18 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     pub(crate) fn constrain_grid(&mut self, dt: f64, forces: bool) {
         if C::PRESENT {
             self.basis.node_positions(&mut self.node_positions);
+            let (medium, particles) = (&self.medium, &self.particles);
+            // The law's ratio: det F is not that of plastic laws, which keep an elastic part of F.
+            let volume = |p: usize| {
+                let deformed = particles.deformation_gradients.get(p).zip(particles.states.get(p));
+                let ratio = deformed.map_or(1.0, |(deformation, state)| medium.volume_ratio(deformation, state));
+                (particles.reference_volumes.get(p).copied().unwrap_or(0.0) * ratio).max(0.0)
+            };
             let motion = GridMotion {
                 positions: &self.node_positions,
                 extents: Extents {
-                    positions: &self.particles.positions,
-                    deformation_gradients: &self.particles.deformation_gradients,
-                    reference_volumes: &self.particles.reference_volumes,
+                    positions: &particles.positions,
+                    volume: &volume,
                 },
                 time: self.time,
                 time_step: dt,

@@ -27,7 +27,7 @@ use crate::error::finite;
 use crate::{Basis, GridNode, MpmError};
 
 /// The grid when a boundary is asked: after forces, before particles move.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct GridMotion<'a, const D: usize> {
     /// Positions of the nodes, by number.
     pub positions: &'a [[f64; D]],

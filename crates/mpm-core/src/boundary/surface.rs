@@ -1,6 +1,6 @@
 //! What a rigid surface gives the nodes at it, and when: bodies meet it where their material is, not where the nodes around them are.
 
-use mpm_tensor::{Matrix, vector};
+use mpm_tensor::vector;
 
 use super::{Contact, GridMotion};
 use crate::{Basis, GridNode};
@@ -9,26 +9,12 @@ use crate::{Basis, GridNode};
 pub const ON_A_SURFACE: f64 = 1e-6;
 
 /// Places and sizes of the particles, in the present order.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy)]
 pub struct Extents<'a, const D: usize> {
     /// x_p.
     pub positions: &'a [[f64; D]],
-    /// F_p; empty where volumes do not change.
-    pub deformation_gradients: &'a [Matrix<D>],
-    /// V⁰_p; empty where particles are points.
-    pub reference_volumes: &'a [f64],
-}
-
-impl<const D: usize> Extents<'_, D> {
-    /// V_p = V⁰_p det F_p ≥ 0.
-    pub fn volume(&self, particle: usize) -> f64 {
-        let reference = self.reference_volumes.get(particle).copied().unwrap_or(0.0);
-        let ratio = self
-            .deformation_gradients
-            .get(particle)
-            .map_or(1.0, Matrix::determinant);
-        (reference * ratio).max(0.0)
-    }
+    /// V_p ≥ 0 by number; 0 of points.
+    pub volume: &'a dyn Fn(usize) -> f64,
 }
 
 /// A rigid surface as the nodes see it.
@@ -84,7 +70,7 @@ impl<const D: usize> Surface<'_, D> {
         let (extents, schedule, mut scratch) = (&motion.extents, basis.schedule(), Vec::new());
         for cell in 0..schedule.cell_count() {
             for p in schedule.cell(cell) {
-                let (x, volume) = (&extents.positions[p], extents.volume(p));
+                let (x, volume) = (&extents.positions[p], (extents.volume)(p));
                 let distance = (self.distance)(x);
                 if (2.0 * (distance - reach).max(0.0)).powi(D as i32) > volume {
                     continue;

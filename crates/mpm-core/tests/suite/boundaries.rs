@@ -40,7 +40,7 @@ fn constrained<S: Spline<W>, const W: usize>(boundaries: Boundaries<2>) -> Const
         positions: &positions,
         extents: Extents {
             positions: &particles,
-            ..Extents::default()
+            volume: &|_| 0.0,
         },
         time: 0.0,
         time_step: 0.1,
@@ -85,7 +85,10 @@ impl<B: Basis<2>> Constrained<B> {
     fn again(&self, mut boundaries: Boundaries<2>) -> Vec<VelocityNode<2>> {
         let motion = GridMotion {
             positions: &self.positions,
-            extents: Extents::default(),
+            extents: Extents {
+                positions: &[],
+                volume: &|_| 0.0,
+            },
             time: 0.0,
             time_step: 0.1,
             forces: true,

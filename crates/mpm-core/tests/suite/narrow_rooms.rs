@@ -82,7 +82,7 @@ impl<S: Spline<W>, const W: usize, const D: usize> Room<S, W, D> {
             positions: &self.positions,
             extents: Extents {
                 positions: &self.particles,
-                ..Extents::default()
+                volume: &|_| 0.0,
             },
             time: 0.0,
             time_step: 0.1,

@@ -174,3 +174,19 @@ friction = 0.5
     let share = rolled.column("centre_x").expect("a column")[1] / 0.5788;
     assert!((share - 0.78).abs() < 0.05, "{share}");
 }
+
+/// Sand that has come apart to four times its volume without a stress touches at half the size that it has, at t = 0.3, not at half of what is left of F.
+#[test]
+fn sand_that_has_come_apart_touches_by_its_volume() {
+    let text = COLUMN
+        .replace("BACKGROUND", GRID)
+        .replace("law = \"linear-elastic\"", "law = \"drucker-prager\"")
+        .replace("poisson_ratio = 0.0", "poisson_ratio = 0.0, friction_angle = 30.0")
+        .replace("velocity =", "deformation = 2.0\nvelocity =")
+        .replace("series_interval = 0.05", "series_interval = 0.01");
+    let wall = "[[walls]]\naxis = \"y\"\nside = \"lower\"\ncondition = \"friction\"\nfriction = 0.3\n";
+    let fallen = series_of(&(text + wall));
+    let momentum = fallen.column("momentum_y").expect("a column");
+    assert!((momentum[29] / momentum[0] - 1.0).abs() < 1e-9, "{momentum:?}");
+    assert!(momentum[31] / momentum[0] < 0.999, "{momentum:?}");
+}
