@@ -1,6 +1,8 @@
 //! The background: a grid or a mesh.
 
-use crate::scene::{Discretisation, GradientName, KernelName, MeshShapeTable, MeshTable, RotationTable, Scene};
+use crate::scene::{
+    Discretisation, GradientName, KernelName, MeshShapeTable, MeshTable, RotationTable, Scene, WidthName,
+};
 use crate::shape::Bounds;
 use crate::values::{finite, not_negative, positive, vector, within};
 use crate::{SceneFault, rotation};
@@ -77,6 +79,9 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
     let needed = mesh.kernel != KernelName::Hat || mesh.gradient == GradientName::Diffuse;
     let expected = "left out with mesh.kernel = \"hat\", whose gradient of the fit is that of the weight";
     within("mesh.gradient", mesh.gradient, needed, expected)?;
+    let needed = mesh.kernel != KernelName::Hat || mesh.width == WidthName::LongestEdge;
+    let expected = "left out with mesh.kernel = \"hat\", which is as wide as the cells around a vertex";
+    within("mesh.width", mesh.width, needed, expected)?;
     check_points_inside(mesh)?;
     Scene::check_rotation::<D>("mesh.rotation", mesh.rotation.as_ref())?;
     not_negative("mesh.reach", mesh.reach).map(drop)
