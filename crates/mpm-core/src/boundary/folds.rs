@@ -36,7 +36,7 @@ fn apart<const D: usize>(one: &Plane<D>, other: &Plane<D>, distance: f64) -> boo
 }
 
 /// Whether reflections at two walls do not commute, and the walls bound the same room.
-fn face_each_other<const D: usize>(one: &Plane<D>, other: &Plane<D>) -> bool {
+pub(super) fn face_each_other<const D: usize>(one: &Plane<D>, other: &Plane<D>) -> bool {
     vector::dot(&one.normal, &other.normal) < -1e-9
 }
 

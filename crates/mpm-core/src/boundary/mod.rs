@@ -150,7 +150,7 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
         for forces in &self.forces {
             forces.act(basis, motion, nodes);
         }
-        if !(self.walls.is_empty() && self.surfaces.is_empty()) {
+        if !(self.walls.is_empty() && self.surfaces.is_empty() && self.obstacles.is_empty()) {
             self.masses.clear();
             self.masses.extend(nodes.iter().map(GridNode::mass));
         }
@@ -158,7 +158,7 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             .fold(&self.walls, basis, motion, (&mut self.masses, &mut *nodes));
         for wall in &self.walls {
             let scratch = (&mut *self.masses, &mut self.gaps);
-            wall.constrain(basis, motion, &self.folds.roles, scratch, nodes);
+            wall.constrain(basis, motion, (&self.folds.roles, &self.walls), scratch, nodes);
         }
         self.folds.unfold(&self.walls, nodes);
         for surface in &mut self.surfaces {
@@ -169,7 +169,7 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
             surface.hold(basis, nodes);
         }
         for obstacle in &self.obstacles {
-            obstacle.constrain(basis, motion, &mut self.gaps, nodes);
+            obstacle.constrain(basis, motion, (&self.masses, &mut self.gaps), nodes);
         }
         for field in &self.prescribed {
             prescribed::prescribe(&**field, basis, motion, nodes);

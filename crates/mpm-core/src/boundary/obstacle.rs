@@ -17,7 +17,7 @@ impl<const D: usize> Obstacle<D> {
         &self,
         basis: &B,
         motion: &GridMotion<D>,
-        gaps: &mut Vec<f64>,
+        scratch: (&[f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
         let close = ON_A_SURFACE * basis.spacing();
@@ -29,7 +29,8 @@ impl<const D: usize> Obstacle<D> {
             velocity: &self.velocity,
             distance: &|x| self.shape.distance_of_particle(x),
             normal: &|x| self.shape.normal(x),
+            image: &|x| self.shape.image(x),
         };
-        surface.act(basis, motion, &inside, gaps, nodes);
+        surface.act(basis, motion, &inside, scratch, nodes);
     }
 }

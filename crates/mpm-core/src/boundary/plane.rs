@@ -1,5 +1,6 @@
 use mpm_tensor::vector;
 
+use super::folds::face_each_other;
 use super::mirror::mirror;
 use super::role::{Role, Roles};
 use super::surface::{ON_A_SURFACE, Surface};
@@ -12,8 +13,8 @@ use crate::{Basis, GridNode};
 /// cannot leave the wall ([`Contact::Stick`], [`Contact::Slip`]), the node is the image of its mirror node: the field of velocities is
 /// odd (or, along a sliding wall, even) about the wall, so the condition holds on the wall itself and the order of the basis is kept. The
 /// pair moves with the momentum both have (the Galerkin method on the odd or even fields), so mass and momentum
-/// along the wall are conserved. Images of images, between walls that are a few nodes apart, are images, too. Elsewhere, and where material may leave, the condition holds at the nodes on and behind the wall;
-/// material that may leave meets the wall where its particles do ([`Contact::Separate`]).
+/// along the wall are conserved. Images of images, between walls that are a few nodes apart, are images, too. Where material may leave, the condition holds for the mean velocity of such a pair, that on the wall between them, and
+/// the material meets the wall where its particles do ([`Contact::Separate`]). Elsewhere the condition holds at the nodes on and behind the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane<const D: usize> {
     /// A point of the wall.
@@ -55,7 +56,7 @@ impl<const D: usize> Plane<D> {
         &self,
         basis: &B,
         motion: &GridMotion<D>,
-        roles: &Roles,
+        (roles, walls): (&Roles, &[Self]),
         (masses, gaps): (&mut [f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
@@ -82,7 +83,13 @@ impl<const D: usize> Plane<D> {
             velocity: &self.velocity,
             distance: &distance,
             normal: &|_| self.normal,
+            image: &|x| {
+                let height = self.height(x);
+                let image = vector::add_scaled(x, -2.0 * height, &self.normal);
+                let is_free = |wall: &Self| !face_each_other(self, wall) || wall.height(&image) > close;
+                (height < -close && walls.iter().all(is_free)).then_some(image)
+            },
         };
-        surface.act(basis, motion, &at, gaps, nodes);
+        surface.act(basis, motion, &at, (masses, gaps), nodes);
     }
 }

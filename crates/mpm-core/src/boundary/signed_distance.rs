@@ -13,6 +13,11 @@ pub trait SignedDistance<const D: usize>: Send + Sync {
         self.distance(x)
     }
 
+    /// The mirror image of a node behind the surface, where the mesh may have one.
+    fn image(&self, _x: &[f64; D]) -> Option<[f64; D]> {
+        None
+    }
+
     /// Whether its parameters are in their ranges.
     ///
     /// # Errors

@@ -26,31 +26,60 @@ pub(super) struct Surface<'a, const D: usize> {
     pub distance: &'a dyn Fn(&[f64; D]) -> f64,
     /// Unit normal at a node, towards the material.
     pub normal: &'a dyn Fn(&[f64; D]) -> [f64; D],
+    /// The mirror image of a node behind it, where material may leave.
+    pub image: &'a dyn Fn(&[f64; D]) -> Option<[f64; D]>,
 }
 
 impl<const D: usize> Surface<'_, D> {
-    /// Change the velocities of the nodes that are `at` it.
+    /// Change the velocities of the nodes that are `at` it, and of their images.
+    ///
+    /// Material that may leave meets the surface halfway between a node i and its image j: (v_i + v_j) / 2 obeys the condition, by the same impulse on both. Held alone, i would make what is pressed against the surface
+    /// softer there.
     pub fn act<B: Basis<D>, N: GridNode<D>>(
         &self,
         basis: &B,
         motion: &GridMotion<D>,
         at: &[usize],
-        gaps: &mut Vec<f64>,
+        (masses, gaps): (&[f64], &mut Vec<f64>),
         nodes: &mut [N],
     ) {
         if at.is_empty() {
             return;
         }
         gaps.clear();
-        if matches!(self.contact, Contact::Separate { .. }) {
+        let separate = matches!(self.contact, Contact::Separate { .. });
+        if separate {
             self.measure(basis, motion, gaps, nodes);
         }
         for &node in at {
-            let v = nodes[node].velocity_mut();
             let closing = gaps.get(node).map_or(0.0, |gap| gap / motion.time_step);
-            let relative = vector::subtract(v, self.velocity);
-            let normal = (self.normal)(&motion.positions[node]);
-            *v = vector::add(self.velocity, &self.contact.resolve_at(&normal, &relative, closing));
+            let x = &motion.positions[node];
+            let normal = (self.normal)(x);
+            let image = (self.image)(x).filter(|_| separate).and_then(|x| basis.node_number(&x));
+            let other = image.map_or(node, |other| other as usize);
+            // Negative weights make negative masses.
+            let other = if masses[node].min(masses[other]) > 0.0 {
+                other
+            } else {
+                node
+            };
+            let mean = vector::add_scaled(
+                &vector::scale(nodes[node].velocity(), 0.5),
+                0.5,
+                nodes[other].velocity(),
+            );
+            let relative = vector::subtract(&mean, self.velocity);
+            let left = self.contact.resolve_at(&normal, &relative, closing);
+            if other == node {
+                *nodes[node].velocity_mut() = vector::add(self.velocity, &left);
+                continue;
+            }
+            let change = vector::scale(
+                &vector::subtract(&left, &relative),
+                2.0 / (masses[node] + masses[other]),
+            );
+            vector::accumulate(nodes[node].velocity_mut(), masses[other], &change);
+            vector::accumulate(nodes[other].velocity_mut(), masses[node], &change);
         }
     }
 

@@ -190,3 +190,31 @@ fn sand_that_has_come_apart_touches_by_its_volume() {
     assert!((momentum[29] / momentum[0] - 1.0).abs() < 1e-9, "{momentum:?}");
     assert!(momentum[31] / momentum[0] < 0.999, "{momentum:?}");
 }
+
+/// A column at rest: σ = −ρ g (L − y) in its two lowest rows of particles, also where nodes behind the floor would take a share of it. An obstacle has no images.
+#[test]
+fn a_column_presses_as_it_weighs() {
+    let rubs = "condition = \"friction\"\nfriction = 0.3\n";
+    let wall = format!("[[walls]]\naxis = \"y\"\nside = \"lower\"\n{rubs}");
+    let half_space = "shape = { kind = \"half-space\", point = [0.0, 0.0], normal = [0.0, 1.0] }";
+    let obstacle = format!("[[obstacles]]\n{half_space}\ncontact = \"separate\"\nfriction = 0.3\n");
+    let row = |name: &str, lower: f64| {
+        let upper = lower + 0.04;
+        let shape = format!("{{ kind = \"box\", lower = [0.0, {lower}], upper = [1.0, {upper}] }}");
+        format!("[[probes]]\nname = \"{name}\"\nregion = {shape}\n")
+    };
+    for (background, floor, least, most) in [(GRID, &wall, 0.0, 0.03), (GRID, &obstacle, 0.05, 0.35)] {
+        let text = COLUMN
+            .replace("BACKGROUND", &format!("{background}\ngravity = [0.0, -1.0]"))
+            .replace("[0.3, 0.3], upper = [0.7, 1.3]", "[0.3, 0.0], upper = [0.7, 1.0]")
+            .replace("velocity = [0.0, -1.0]", "")
+            .replace("end = 0.6", "end = 3.0, damping = 6.0");
+        let rested = series_of(&format!("{text}{floor}{}{}", row("first", 0.005), row("second", 0.055)));
+        let off = [("first", 0.975), ("second", 0.925)].map(|(name, weight)| {
+            let stress = rested.column(&format!("{name}_stress_yy")).expect("a probe");
+            (stress.last().expect("a row") / -weight - 1.0).abs()
+        });
+        let largest = off[0].max(off[1]);
+        assert!((least..most).contains(&largest), "{floor}{off:?}");
+    }
+}
