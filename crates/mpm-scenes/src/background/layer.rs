@@ -6,14 +6,14 @@ use mpm_mesh::SimplexMesh;
 use mpm_mesh::generate::{GenerationError, with_mirrored_layer, with_outer_layer};
 use mpm_tensor::vector::{accumulate, dot, norm, scale, subtract};
 
-use super::named_facets;
-use crate::scene::{FacetCondition, Scene, WallCondition};
+use super::{named_facets, smooth_parts};
+use crate::scene::{FacetCondition, Scene};
 use crate::shape::Bounds;
 use crate::{SceneFault, plane};
 
 /// The mesh with the images of its cells behind the walls and the plane groups of facets that it ends at, and with other cells around the rest of its boundary.
 ///
-/// Behind what nothing leaves (fixed, prescribed, sliding) nodes are tied to their images, for which walls need some; facets do with images between nodes where mirrored cells would spoil the mesh.
+/// Behind walls and facets nodes are tied to their images, for which walls need some; facets do with images between nodes, or without, where mirrored cells would spoil the mesh.
 pub(super) fn around<const D: usize>(
     scene: &Scene,
     inner: &SimplexMesh<D>,
@@ -21,17 +21,23 @@ pub(super) fn around<const D: usize>(
     groups: &BTreeMap<String, Vec<u32>>,
 ) -> Result<SimplexMesh<D>, SceneFault> {
     let mut planes = Vec::new();
-    let walls = scene.walls.iter().enumerate();
-    for (index, wall) in walls.filter(|(_, wall)| wall.condition != WallCondition::Friction) {
+    for (index, wall) in scene.walls.iter().enumerate() {
         planes.push(plane::build(room, index, wall)?);
     }
     let plain = completed(inner, &planes)
         .map_err(|error| SceneFault::value("mesh.outer_layer", true, format!("false for this mesh: {error}")))?;
-    let holds = |condition| !matches!(condition, FacetCondition::Friction | FacetCondition::Traction);
-    let held = scene.facets.iter().filter(|table| holds(table.condition));
-    let held: Vec<_> = held
-        .filter_map(|table| plane_of(inner, groups.get(&table.group)?))
-        .collect();
+    let held = scene.facets.iter();
+    let held = held.filter(|table| table.condition != FacetCondition::Traction);
+    let parts = held.filter_map(|table| {
+        let facets = groups.get(&table.group)?;
+        let slides = matches!(table.condition, FacetCondition::Slip | FacetCondition::Friction);
+        Some(if slides {
+            smooth_parts(inner, facets)
+        } else {
+            vec![facets.clone()]
+        })
+    });
+    let held: Vec<_> = parts.flatten().filter_map(|part| plane_of(inner, &part)).collect();
     Ok(if held.is_empty() {
         plain
     } else {

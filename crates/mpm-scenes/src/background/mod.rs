@@ -13,7 +13,7 @@ use crate::shape::Bounds;
 use crate::{SceneFault, rotation};
 
 pub(crate) use generate::of_shape;
-pub(crate) use named_facets::{facet_keys, named_facets};
+pub(crate) use named_facets::{facet_keys, named_facets, smooth_parts};
 
 /// The background of a scene.
 pub(crate) enum Background<const D: usize> {

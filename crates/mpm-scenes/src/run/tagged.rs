@@ -8,24 +8,24 @@ use mpm_tensor::vector as algebra;
 
 use super::dispatch;
 use super::held_facets::{behind, held, vertex_normals};
-use crate::background::{Background, facet_keys, named_facets};
+use crate::background::{Background, facet_keys, named_facets, smooth_parts};
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::{vector, within};
 use crate::{SceneFault, velocity};
 
-/// Vertices by the bits of their positions, which nodes have too.
-type ByPosition<const D: usize> = HashMap<[u64; D], [f64; D]>;
+/// Normals, and mirror images of what is behind, at vertices by the bits of their positions, which nodes have too.
+type ByPosition<const D: usize> = HashMap<[u64; D], ([f64; D], Option<[f64; D]>)>;
 
 fn bits<const D: usize>(x: &[f64; D]) -> [u64; D] {
     x.map(f64::to_bits)
 }
 
-/// A surface that stands at vertices and nowhere else, with a unit normal into the mesh at each. Particles meet the boundary of the mesh.
+/// A surface that stands at vertices and nowhere else, with a unit normal into the mesh at each. Particles meet its facets.
 struct AtVertices<const D: usize> {
     normals: ByPosition<D>,
-    /// The boundary, as far as particles of a cell's size can be and touch it.
-    boundary: (MeshOutside<D>, f64),
+    /// The facets, as far as particles of a cell's size can be and touch them.
+    facets: (MeshOutside<D>, f64),
 }
 
 impl<const D: usize> SignedDistance<D> for AtVertices<D> {
@@ -38,13 +38,21 @@ impl<const D: usize> SignedDistance<D> for AtVertices<D> {
     }
 
     fn distance_of_particle(&self, x: &[f64; D]) -> f64 {
-        let (boundary, reach) = &self.boundary;
-        let near = boundary.closer_than(x, *reach);
-        near.map_or(f64::INFINITY, |(distance, _)| distance)
+        let (facets, reach) = &self.facets;
+        let distance = facets.distance(x);
+        if distance.abs() < *reach {
+            distance
+        } else {
+            f64::INFINITY
+        }
     }
 
     fn normal(&self, x: &[f64; D]) -> [f64; D] {
-        self.normals.get(&bits(x)).copied().unwrap_or([0.0; D])
+        self.normals.get(&bits(x)).map_or([0.0; D], |(normal, _)| *normal)
+    }
+
+    fn image(&self, x: &[f64; D]) -> Option<[f64; D]> {
+        self.normals.get(&bits(x)).and_then(|(_, image)| *image)
     }
 }
 
@@ -89,14 +97,16 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
         );
         within(&field("group"), &table.group, holds || inside == 0, &expected)?;
         let normals = vertex_normals(inner, facets);
-        let mut surface = |slides, velocity: &dyn Fn(&[f64; D]) -> [f64; D]| {
-            tagged
-                .surfaces
-                .push(held(inner.vertices().len(), whole, &normals, slides, velocity));
-        };
+        let own = inner.vertices().len();
         match table.condition {
-            FacetCondition::Fixed => surface(false, &|_| [0.0; D]),
-            FacetCondition::Slip => surface(true, &|_| [0.0; D]),
+            FacetCondition::Fixed => tagged.surfaces.push(held(own, whole, &normals, false, &|_| [0.0; D])),
+            FacetCondition::Slip => {
+                let parts = smooth_parts(inner, facets).into_iter();
+                let normals = parts.map(|part| vertex_normals(inner, &part));
+                tagged
+                    .surfaces
+                    .extend(normals.map(|normals| held(own, whole, &normals, true, &|_| [0.0; D])));
+            }
             FacetCondition::Prescribed => {
                 let velocity = velocity::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
                 let across = |(&vertex, normal): (&u32, &[f64; D])| {
@@ -106,23 +116,36 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
                 let expected = "along the facets, or across them by an edge at most until time.end: they stay where they are, [[obstacles]] and [[held]] move";
                 let stays = way <= inner.edge_lengths().longest;
                 within(&field("velocity"), &table.velocity, stays, expected)?;
-                surface(false, &|x| velocity.at(x));
+                tagged
+                    .surfaces
+                    .push(held(own, whole, &normals, false, &|x| velocity.at(x)));
             }
             FacetCondition::Friction => {
                 let friction = table.friction.unwrap_or(0.0);
                 let reach = 2.0 * inner.edge_lengths().longest;
-                let own = normals.iter().map(|(&vertex, normal)| (vertex, *normal));
-                let behind = behind(whole, inner.vertices().len(), &normals);
-                let all = own.chain(behind.into_iter().map(|(vertex, base)| (vertex, normals[&base])));
-                let position = |vertex: u32| bits(&whole.vertices()[vertex as usize]);
-                tagged.obstacles.push(Obstacle {
-                    shape: Box::new(AtVertices {
-                        normals: all.map(|(vertex, normal)| (position(vertex), normal)).collect(),
-                        boundary: (MeshOutside::new(inner, reach), reach),
-                    }),
-                    contact: Contact::Separate { friction },
-                    velocity: [0.0; D],
-                });
+                for part in smooth_parts(inner, facets) {
+                    let normals = vertex_normals(inner, &part);
+                    let position = |vertex: u32| whole.vertices()[vertex as usize];
+                    let image = |vertex: u32, base: u32| {
+                        let (x, normal) = (position(vertex), &normals[&base]);
+                        let height = algebra::dot(&algebra::subtract(&x, &position(base)), normal);
+                        let image = (height < 0.0).then(|| algebra::add_scaled(&x, -2.0 * height, normal));
+                        (bits(&x), (*normal, image))
+                    };
+                    let behind = behind(whole, own, &normals).into_iter();
+                    let behind = behind.map(|(vertex, base)| image(vertex, base));
+                    let on = normals
+                        .iter()
+                        .map(|(&vertex, normal)| (bits(&position(vertex)), (*normal, None)));
+                    tagged.obstacles.push(Obstacle {
+                        shape: Box::new(AtVertices {
+                            normals: on.chain(behind).collect(),
+                            facets: (MeshOutside::of(inner, named_facets(inner, &part), reach), reach),
+                        }),
+                        contact: Contact::Separate { friction },
+                        velocity: [0.0; D],
+                    });
+                }
             }
             FacetCondition::Traction => {
                 let traction = table

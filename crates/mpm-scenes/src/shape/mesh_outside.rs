@@ -1,6 +1,6 @@
 //! The distance to the boundary of a mesh.
 
-use mpm_mesh::{CellSearch, SimplexMesh};
+use mpm_mesh::{BoundaryFacet, CellSearch, SimplexMesh};
 use mpm_tensor::vector::{accumulate, distance, dot, norm_squared, subtract};
 
 use super::facet_grid::{FacetGrid, Near};
@@ -39,9 +39,12 @@ struct Nearest<'a, const D: usize> {
 impl<const D: usize> MeshOutside<D> {
     /// Of a mesh; distances are exact up to `reach`.
     pub fn new(mesh: &SimplexMesh<D>, reach: f64) -> Self {
-        let facets: Vec<_> = mesh
-            .boundary()
-            .iter()
+        Self::of(mesh, mesh.boundary().into_iter(), reach)
+    }
+
+    /// Of these facets of a mesh's boundary alone; where none is within `reach` the sign says nothing.
+    pub fn of(mesh: &SimplexMesh<D>, facets: impl Iterator<Item = BoundaryFacet<D>>, reach: f64) -> Self {
+        let facets: Vec<_> = facets
             .map(|facet| {
                 let corners = facet.vertices.map(|vertex| mesh.vertices()[vertex as usize]);
                 Facet::new(corners, facet.normal.map(|c| -c))

@@ -196,6 +196,7 @@ fn sand_that_has_come_apart_touches_by_its_volume() {
 fn a_column_presses_as_it_weighs() {
     let rubs = "condition = \"friction\"\nfriction = 0.3\n";
     let wall = format!("[[walls]]\naxis = \"y\"\nside = \"lower\"\n{rubs}");
+    let facets = format!("[[facets]]\ngroup = \"boundary\"\n{rubs}");
     let half_space = "shape = { kind = \"half-space\", point = [0.0, 0.0], normal = [0.0, 1.0] }";
     let obstacle = format!("[[obstacles]]\n{half_space}\ncontact = \"separate\"\nfriction = 0.3\n");
     let row = |name: &str, lower: f64| {
@@ -203,7 +204,11 @@ fn a_column_presses_as_it_weighs() {
         let shape = format!("{{ kind = \"box\", lower = [0.0, {lower}], upper = [1.0, {upper}] }}");
         format!("[[probes]]\nname = \"{name}\"\nregion = {shape}\n")
     };
-    for (background, floor, least, most) in [(GRID, &wall, 0.0, 0.03), (GRID, &obstacle, 0.05, 0.35)] {
+    for (background, floor, least, most) in [
+        (GRID, &wall, 0.0, 0.03),
+        (MESH, &facets, 0.0, 0.06),
+        (GRID, &obstacle, 0.05, 0.35),
+    ] {
         let text = COLUMN
             .replace("BACKGROUND", &format!("{background}\ngravity = [0.0, -1.0]"))
             .replace("[0.3, 0.3], upper = [0.7, 1.3]", "[0.3, 0.0], upper = [0.7, 1.0]")

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use mpm_mesh::generate::{EdgeTarget, disk};
+use mpm_mesh::generate::{EdgeTarget, disk, rectangle};
 use mpm_mesh::{BoundaryFacet, SimplexMesh};
 use mpm_scenes::{Scene, Snapshot, frames};
 
@@ -304,5 +304,74 @@ fn facets_that_would_travel_are_refused() {
         let message = frames(&scene, &mut |_| {}).expect_err(travels).to_string();
         let expected = format!("facets[0].velocity = {travels}: must be along the facets, or across");
         assert!(message.contains(&expected), "{message}");
+    }
+}
+
+/// A unit square whose left side and whose bottom are groups, and how bodies stand in it.
+fn in_a_square(text: &str) -> Snapshot {
+    let target = EdgeTarget {
+        length: 0.1,
+        angle: 0.2,
+    };
+    let square = rectangle([0.0; 2], [1.0; 2], &target).expect("a square");
+    let names = [(1, "left"), (2, "bottom"), (3, "rest")];
+    let text_of_mesh = msh(&square, &names, |facet| match facet.normal {
+        [x, _] if x < -0.5 => 1,
+        [_, y] if y < -0.5 => 2,
+        _ => 3,
+    });
+    let directory = tempfile::tempdir().expect("a directory");
+    std::fs::write(directory.path().join("square.msh"), text_of_mesh).expect("writable");
+    let head = "title = \"square\"\ndimension = 2\nmesh = { file = \"square.msh\" }\n";
+    let scene = Scene::parse(&format!("{head}{text}"), &directory.path().join("scene.toml")).expect("a scene");
+    let mut last = Snapshot::default();
+    frames(&scene, &mut |snapshot| last = snapshot).expect("a run");
+    last
+}
+
+/// Water at rest in a square tank: no normal of a corner is one of its sides, and nothing flows around it.
+#[test]
+fn a_group_with_corners_holds_on_both_sides_of_them() {
+    let water = r#"
+gravity = [0.0, -10.0]
+transfer = { kind = "apic" }
+time = { end = 1.0, damping = 5.0 }
+materials.water = { law = "tait-fluid", density = 1000.0, sound_speed = 20.0 }
+output = { interval = 1.0 }
+bodies = [{ name = "water", material = "water", shape = { kind = "box", lower = [0.0, 0.0], upper = [1.0, 0.6] }, spacing = 0.04 }]
+facets = [{ group = "boundary", "#;
+    for condition in ["condition = \"slip\"", "condition = \"friction\", friction = 0.0"] {
+        let last = in_a_square(&format!("{water}{condition} }}]\n"));
+        let lowest = last.positions.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(lowest > 0.01, "{condition}: {lowest}");
+        let changes = last.volume_ratios.iter().map(|ratio| (ratio - 1.0).abs());
+        let largest = changes.fold(0.0, f64::max);
+        assert!(largest < 0.06, "{condition}: {largest}");
+    }
+}
+
+/// A block that slides on the bottom towards the left side is free until it gets there, at t = 0.18.
+#[test]
+fn a_body_on_one_group_does_not_touch_another() {
+    let block = r#"
+transfer = { kind = "apic" }
+time = { end = 0.15 }
+materials.rubber = { law = "neo-hookean", density = 1000.0, young_modulus = 1e6, poisson_ratio = 0.0 }
+output = { interval = 0.15 }
+bodies = [{ name = "block", material = "rubber", shape = { kind = "box", lower = [0.2, 0.0], upper = [0.6, 0.2] }, spacing = 0.04, velocity = [-1.0, 0.0] }]
+facets = [GROUPS]
+"#;
+    let groups = |names: &[&str]| {
+        let rough = |name: &&str| format!("{{ group = \"{name}\", condition = \"friction\", friction = 0.0 }}");
+        block.replace("GROUPS", &names.iter().map(rough).collect::<Vec<_>>().join(", "))
+    };
+    for names in [["left", "bottom"].as_slice(), &["boundary"]] {
+        let last = in_a_square(&groups(names));
+        let fastest = last
+            .velocities
+            .chunks_exact(2)
+            .map(|v| (v[0] + 1.0).abs())
+            .fold(0.0, f64::max);
+        assert!(fastest < 1e-9, "{names:?}: {fastest}");
     }
 }
