@@ -5,6 +5,9 @@ use std::ops::RangeInclusive;
 /// Blocks that free draws are cut into.
 const BLOCKS: usize = 8;
 
+/// 1 − Σ s_k² below which one of the parts is all.
+const LEAST_LEFT: f64 = 1e-3;
+
 /// An expectation with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -20,8 +23,7 @@ pub struct Estimate {
 impl Estimate {
     /// Σ c f ± (Σ c² (f − f̄)² + Σ v)^½ of terms (c, f, whether the target was evaluated there): the first sum is over those where it was, which carry the value; v is that of each run of others, the free
     /// draws of one proposal, by [how far blocks of them are apart](variance_by_blocks). And the largest |c (f − f̄)| of these.
-    pub(crate) fn of_terms(terms: impl Iterator<Item = (f64, f64, bool)>) -> (Self, f64) {
-        let terms: Vec<_> = terms.collect();
+    pub(crate) fn of_terms(terms: &[(f64, f64, bool)]) -> (Self, f64) {
         let value: f64 = terms.iter().map(|(c, f, _)| c * f).sum();
         let (mut variance, mut largest) = (0.0, 0.0);
         let carried = terms.iter().filter(|(.., evaluated)| *evaluated);
@@ -43,6 +45,19 @@ impl Estimate {
             carriers,
         };
         (estimate, largest)
+    }
+}
+
+/// The standard error of Σ c f by how far apart independent parts of it are, given of each Σ c and Σ c (f − f̄): (Σ t_k² / (1 − Σ s_k²))^½ with shares s_k of the sum, for parts that count by the inverse of their variances; 0 of a single part.
+pub(crate) fn error_between(parts: &[[f64; 2]]) -> f64 {
+    let unit = unit_of_squares(parts.iter().map(|[_, deviation]| *deviation));
+    let total: f64 = parts.iter().map(|[share, _]| share).sum();
+    let left = 1.0 - parts.iter().map(|[share, _]| (share / total).powi(2)).sum::<f64>();
+    let squares: f64 = parts.iter().map(|[_, deviation]| (deviation / unit).powi(2)).sum();
+    if left > LEAST_LEFT {
+        unit * (squares / left).sqrt()
+    } else {
+        0.0
     }
 }
 
@@ -82,13 +97,17 @@ fn carriers(sizes: impl Iterator<Item = f64> + Clone) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use parvi_targets::normal_quantile;
+    use rand::rngs::ChaCha8Rng;
+    use rand::{RngExt, SeedableRng};
+
     use super::*;
 
     #[test]
     fn an_error_is_in_units_of_its_function() {
         let error = |unit: f64| {
             let terms = [(0.4, unit), (0.2, 3.0 * unit), (0.4, -unit)];
-            let (estimate, _) = Estimate::of_terms(terms.into_iter().map(|(c, f)| (c, f, true)));
+            let (estimate, _) = Estimate::of_terms(&terms.map(|(c, f)| (c, f, true)));
             estimate.standard_error / unit
         };
         let expected = error(1.0);
@@ -99,10 +118,30 @@ mod tests {
     }
 
     #[test]
+    fn independent_parts_are_as_far_apart_as_their_errors_say() {
+        // Three parts of unequal errors, each counted by the inverse of its variance.
+        let shares = [0.5, 0.3, 0.2];
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mean = (0..20_000).map(|_| {
+            let values = shares.map(|share: f64| normal_quantile(rng.random_range(1e-12..1.0)) / share.sqrt());
+            let all: f64 = values.iter().zip(shares).map(|(value, share)| share * value).sum();
+            let parts = [0, 1, 2].map(|k| [shares[k], shares[k] * (values[k] - all)]);
+            error_between(&parts).powi(2) / 20_000.0
+        });
+        let mean: f64 = mean.sum();
+        assert!((mean - 1.0).abs() < 0.03, "{mean}");
+        assert_eq!(error_between(&[[1.0, 0.0]]), 0.0);
+        assert_eq!(error_between(&[]), 0.0);
+        assert_eq!(error_between(&[[0.5, 1e300], [0.5, -1e300]]), 2e300);
+    }
+
+    #[test]
     fn what_blocks_agree_about_is_no_error() {
         let error = |f: &dyn Fn(f64) -> f64| {
-            let terms = (0..800).map(|index| (1.0 / 800.0, f(f64::from(index)), false));
-            Estimate::of_terms(terms).0.standard_error
+            let terms: Vec<_> = (0..800)
+                .map(|index| (1.0 / 800.0, f(f64::from(index)), false))
+                .collect();
+            Estimate::of_terms(&terms).0.standard_error
         };
         // What no block resolves is as good as independent, here of a variance of 1/12.
         let independent = (1.0_f64 / 12.0 / 800.0).sqrt();
@@ -118,7 +157,8 @@ mod tests {
         let of = |events: [f64; 4], evaluated: [bool; 4]| {
             let weights = [0.4, 0.2, 0.2, 0.2];
             let terms = weights.into_iter().zip(events).zip(evaluated);
-            Estimate::of_terms(terms.map(|((c, f), evaluated)| (c, f, evaluated))).0
+            let terms: Vec<_> = terms.map(|((c, f), evaluated)| (c, f, evaluated)).collect();
+            Estimate::of_terms(&terms).0
         };
         let none = of([0.0; 4], [true; 4]);
         assert_eq!((none.value, none.standard_error, none.carriers), (0.0, 0.0, 0.0));

@@ -5,7 +5,7 @@ use std::ops::Range;
 use mpm_tensor::vector;
 use parvi_targets::Frame;
 
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, error_between};
 use crate::fold::Fold;
 use crate::weights::{tempered, top};
 
@@ -177,17 +177,35 @@ impl<const D: usize> Measure<D> {
         weighted.map(|(y, c)| c * f(y)).sum()
     }
 
-    /// Σ c f(y) with its standard error: Σ c² (f − f̄)² over the points that were evaluated, and for the free draws of every fold what separates eight blocks of them, which is little of a smooth f. Free draws come from kernels with longer tails than the target's: of a function that grows faster than
+    /// Σ c f(y) with its standard error: the root of Σ c² (f − f̄)² over the points that were evaluated and, for the free draws of every fold, what separates eight blocks of them, which is little of a smooth f; or, if that is more, what the independent parts that the measure is made of
+    /// are apart. Free draws come from kernels with longer tails than the target's: of a function that grows faster than
     /// a power of y they may know nothing ([`Pool::expectation`](crate::Pool::expectation) sees to that).
     pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
-        self.expectation_and_largest(f).0
+        let terms = self.terms(f);
+        let (estimate, _) = Estimate::of_terms(&terms);
+        self.spread(estimate, &terms)
     }
 
-    /// The same, and the largest share of a single free draw in it, max |c (f − f̄)|.
-    pub(crate) fn expectation_and_largest(&self, f: impl Fn(&[f64; D]) -> f64) -> (Estimate, f64) {
+    /// (c, f, whether the target was evaluated there) of every point; f is not asked where c is zero.
+    pub(crate) fn terms(&self, f: impl Fn(&[f64; D]) -> f64) -> Vec<(f64, f64, bool)> {
         let points = self.points.iter().zip(&self.weights).zip(&self.evaluated);
-        let weighted = points.filter(|((_, c), _)| **c != 0.0);
-        Estimate::of_terms(weighted.map(|((y, c), evaluated)| (*c, f(y), *evaluated)))
+        let term = |((y, &c), &evaluated)| (c, if c == 0.0 { 0.0 } else { f(y) }, evaluated);
+        points.map(term).collect()
+    }
+
+    /// The estimate with an error no smaller than what the parts are apart.
+    pub(crate) fn spread(&self, estimate: Estimate, terms: &[(f64, f64, bool)]) -> Estimate {
+        let sums = |part: Range<usize>| {
+            let part = terms.get(part).unwrap_or(&[]).iter();
+            part.fold([0.0; 2], |[share, deviation], (c, f, _)| {
+                [share + c, deviation + c * (f - estimate.value)]
+            })
+        };
+        let parts: Vec<[f64; 2]> = self.parts().map(sums).collect();
+        Estimate {
+            standard_error: estimate.standard_error.max(error_between(&parts)),
+            ..estimate
+        }
     }
 
     /// Mean and standard deviation of every coordinate.

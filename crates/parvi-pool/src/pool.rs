@@ -168,15 +168,17 @@ impl<const D: usize> Pool<D> {
     /// The error is that of the points that were met. Of a rare event it can be trusted where enough of them meet it: by [`carriers`](Estimate::carriers) from 100 on
     /// (docs/limitations.md); where fewer do the value is low and the error several times too small, and where none does both are 0, of an event that may well have a probability.
     pub fn expectation(&self, f: impl Fn(&[f64; D]) -> f64) -> Estimate {
-        let (controlled, largest) = self.measure.expectation_and_largest(&f);
+        let terms = self.measure.terms(&f);
+        let (controlled, largest) = Estimate::of_terms(&terms);
         let weighted = self.positions.iter().zip(&self.weights).filter(|(_, w)| **w > 0.0);
-        let (weighed, _) = Estimate::of_terms(weighted.map(|(y, w)| (*w, f(y), true)));
+        let weighted: Vec<_> = weighted.map(|(y, w)| (*w, f(y), true)).collect();
+        let (weighed, _) = Estimate::of_terms(&weighted);
         let error = weighed.standard_error;
         if controlled.standard_error <= WORTH_CONTROL * error && largest <= error {
             // Beside a control variate weights are small and of any sign: what carries an estimate is what was met.
             Estimate {
                 carriers: weighed.carriers,
-                ..controlled
+                ..self.measure.spread(controlled, &terms)
             }
         } else {
             weighed

@@ -12,7 +12,7 @@ fn sample(directory: &Path, program: &str, threads: &str) -> Output {
 
 /// The same with flags.
 fn sample_with(flags: &str, directory: &Path, program: &str, threads: &str) -> Output {
-    let line = format!("sample --target program --dim 2 --particles 500 --out x.csv {flags} --program");
+    let line = format!("sample --target program --dim 2 --particles 1000 --out x.csv {flags} --program");
     let arguments = line.split_whitespace().chain([program]);
     let mut command = command();
     command.current_dir(directory).env("RAYON_NUM_THREADS", threads);

@@ -29,6 +29,7 @@ fn quickstart() {
             "{ name = \"wells\", dim = 5 }",
             "{ name = \"banana\", parameters = { curvature = 1.0 } }",
         )
+        .replace("particles = 300", "particles = 60")
         .replace("points = 16384", "points = 65536")
         .replace(
             "mean = 0.02\nstandard-deviation = 0.03",

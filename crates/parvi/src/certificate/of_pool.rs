@@ -7,6 +7,9 @@ use super::{Certificate, Doubt, EstimatedMoment, MomentEstimate, Outcome, doubt_
 use crate::Samples;
 use crate::extent::Extent;
 
+/// Share of the pool's effective size that carries the second moment of a coordinate, at least.
+const LEAST_CARRIED: f64 = 1.0 / 16.0;
+
 impl Certificate {
     /// The verdict of the pool on particles that were condensed from it, or on its points where it was made for so many particles, unless there is a doubt without it; with drift and kinetic
     /// energy of the particles.
@@ -27,7 +30,7 @@ impl Certificate {
             Some(Objection::Inconsistent(ratio)) => Some(Doubt::Inconsistent { ratio }),
             Some(Objection::Searching(quiet)) => Some(Doubt::Searching { quiet }),
             // Two standard errors of the pool.
-            None => doubt_of_moments(&moments, 2.0 / rate),
+            None => doubt_of_moments(&moments, 2.0 / rate).or_else(|| hanging(pool)),
         };
         Self {
             outcome: doubt
@@ -39,6 +42,19 @@ impl Certificate {
             kinetic_energy,
         }
     }
+}
+
+/// The axis whose second moment the least share of the pool carries, if that is too little. Of independent draws it is one over the kurtosis, 1/3 of normal ones: where it is less than 1/16 there may be a longer tail than was met, of which no standard error says anything.
+fn hanging<const D: usize>(pool: &Pool<D>) -> Option<Doubt> {
+    let size = pool.effective_size();
+    let (mean, covariance) = pool.moments();
+    let share = |a: usize| {
+        let unit = power_of_two(covariance.0[a][a].sqrt());
+        pool.expectation(|x| ((x[a] - mean[a]) / unit).powi(2)).carriers / size
+    };
+    let shares = (0..D).map(|a| (a + 1, share(a)));
+    let (axis, share) = shares.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    (share < LEAST_CARRIED).then_some(Doubt::Hangs { axis, share })
 }
 
 /// The particles' moments beside those of the pool, what these leave unexplained times `rate`.

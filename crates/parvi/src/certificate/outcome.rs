@@ -116,6 +116,14 @@ pub enum Doubt {
         /// Its variance over that of as many independent draws as there are particles.
         variance: f64,
     },
+    /// Too few points carry the second moment of a coordinate for its standard error to be known.
+    #[error("the standard deviation of x{axis} hangs on few points: {:.1} % of the effective size of the pool, and there may be more of the tail", 100.0 * .share)]
+    Hangs {
+        /// Axis.
+        axis: usize,
+        /// [`Estimate::carriers`](parvi_pool::Estimate::carriers) over the effective size.
+        share: f64,
+    },
     /// Fresh points met what no kernel had covered.
     #[error("fresh points met a mass of {mass:.3} that nothing had covered before, and more may have been missed")]
     Uncovered {
