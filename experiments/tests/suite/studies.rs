@@ -29,11 +29,11 @@ fn quickstart() {
             "{ name = \"wells\", dim = 5 }",
             "{ name = \"banana\", parameters = { curvature = 1.0 } }",
         )
-        .replace("particles = 300", "particles = 60")
-        .replace("points = 16384", "points = 65536")
+        .replace("points = 16384", "points = 32768")
+        .replace("seed = 1", "seed = 6")
         .replace(
             "mean = 0.02\nstandard-deviation = 0.03",
-            "mean = 0.02\nstandard-deviation = 0.05",
+            "mean = 0.05\nstandard-deviation = 0.09",
         );
     let (root, output) = run_study(&bent);
     assert_eq!(value(&output, "verdict").as_deref(), Some("undecided"));
