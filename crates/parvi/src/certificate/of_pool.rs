@@ -20,7 +20,7 @@ impl Certificate {
         (drift, kinetic_energy): (f64, f64),
     ) -> Self {
         let rate = (particles as f64).sqrt();
-        let moments = moments(pool, samples, rate);
+        let (moments, carriers): (Vec<_>, Vec<_>) = moments(pool, samples, rate).into_iter().unzip();
         let doubt_of_pool = || match pool.objection(particles) {
             Some(Objection::HeavyTail(pareto_k)) => Some(Doubt::HeavyTail { pareto_k }),
             Some(Objection::Evidence(error)) => Some(Doubt::Evidence { error }),
@@ -30,7 +30,7 @@ impl Certificate {
             Some(Objection::Inconsistent(ratio)) => Some(Doubt::Inconsistent { ratio }),
             Some(Objection::Searching(quiet)) => Some(Doubt::Searching { quiet }),
             // Two standard errors of the pool.
-            None => doubt_of_moments(&moments, 2.0 / rate).or_else(|| hanging(pool)),
+            None => doubt_of_moments(&moments, 2.0 / rate).or_else(|| hanging(&carriers, pool.effective_size())),
         };
         Self {
             outcome: doubt
@@ -45,20 +45,14 @@ impl Certificate {
 }
 
 /// The axis whose second moment the least share of the pool carries, if that is too little. Of independent draws it is one over the kurtosis, 1/3 of normal ones: where it is less than 1/16 there may be a longer tail than was met, of which no standard error says anything.
-fn hanging<const D: usize>(pool: &Pool<D>) -> Option<Doubt> {
-    let size = pool.effective_size();
-    let (mean, covariance) = pool.moments();
-    let share = |a: usize| {
-        let unit = power_of_two(covariance.0[a][a].sqrt());
-        pool.expectation(|x| ((x[a] - mean[a]) / unit).powi(2)).carriers / size
-    };
-    let shares = (0..D).map(|a| (a + 1, share(a)));
+fn hanging(carriers: &[f64], size: f64) -> Option<Doubt> {
+    let shares = (1..).zip(carriers.iter().map(|carriers| carriers / size));
     let (axis, share) = shares.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
     (share < LEAST_CARRIED).then_some(Doubt::Hangs { axis, share })
 }
 
-/// The particles' moments beside those of the pool, what these leave unexplained times `rate`.
-fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> Vec<MomentEstimate> {
+/// The particles' moments beside those of the pool, what these leave unexplained times `rate`; with the carriers of each second moment.
+fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> Vec<(MomentEstimate, f64)> {
     let own = Extent::of_weighted(&samples.positions, samples.weights.as_deref());
     let of_axis = |a: usize| {
         // In units of a power of two, which rounds nothing: squares of squares of large coordinates overflow.
@@ -72,7 +66,7 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> V
         let square = in_units(pool.expectation(|x| ((x[a] - mean.value) / unit).powi(2)), unit * unit);
         let deviation = square.value.max(0.0).sqrt();
         let deviation_error = square.standard_error / (2.0 * deviation);
-        MomentEstimate {
+        let moment = MomentEstimate {
             mean: EstimatedMoment {
                 value: own.mean[a],
                 estimate: mean.value,
@@ -85,7 +79,8 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> V
                 standard_error: (own.deviation[a] - deviation).hypot(deviation_error),
                 unexplained: rate * deviation_error / deviation,
             },
-        }
+        };
+        (moment, square.carriers)
     };
     (0..D).map(of_axis).collect()
 }
