@@ -87,7 +87,7 @@ impl Family {
             self.runs,
             self.claims,
             self.missed,
-            self.evaluations[self.evaluations.len() / 2],
+            self.evaluations.get(self.runs / 2).unwrap_or(&f64::NAN),
             root_mean_square(&self.means),
             root_mean_square(&self.variances),
             within(1.0),
