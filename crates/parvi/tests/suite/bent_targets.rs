@@ -129,7 +129,7 @@ fn a_cross_is_better_than_independent_draws() {
     assert!(reached < 0.5, "{reached}");
 }
 
-/// A parabola over a parabola: the pool's standard deviation is a fifth low or more, and its stated error 3 %.
+/// A parabola over a parabola: the pool's standard deviation is more than a fifth low, and its stated error less than 4 %.
 #[test]
 fn a_tail_of_which_few_points_are_known_is_not_vouched_for() {
     let target = Rosenbrock::<3>::new(1.0, 0.3).expect("scales");
