@@ -6,7 +6,7 @@ use rand::rngs::ChaCha8Rng;
 use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::LANES;
-use crate::learn::{Spending, learn};
+use crate::learn::{Manner, learn};
 use crate::mixture::Mixture;
 use crate::options::{Plan, PoolError, Round};
 use crate::propose::{Form, best_form, proposal};
@@ -243,13 +243,14 @@ impl<const D: usize> Adaptation<D> {
         } else {
             0
         };
-        let spending = Spending {
+        let manner = Manner {
+            hanging: plan.hanging,
             sharpening,
             walking: (0.5 * WALKING * plan.evaluations as f64) as u64,
         };
         let mut share = 0.0;
         for side in 0..2 {
-            let proposal = self.proposal(1 - side, spending, density, rng)?;
+            let proposal = self.proposal(1 - side, manner, density, rng)?;
             let drawn = self.folds[side].draw(density, proposal, plan.round / 2, rng.random());
             self.shares[side].push(drawn);
             share += 0.5 * drawn;
@@ -280,12 +281,12 @@ impl<const D: usize> Adaptation<D> {
     fn proposal(
         &mut self,
         side: usize,
-        spending: Spending,
+        manner: Manner,
         density: &mut Density<'_, D>,
         rng: &mut ChaCha8Rng,
     ) -> Result<Mixture<D>, PoolError> {
-        let mut learned = learn(&[&self.folds[side]], spending, density, rng);
-        let form = best_form(&learned.sample, self.form, spending.sharpening > 0, rng);
+        let mut learned = learn(&[&self.folds[side]], manner, density, rng);
+        let form = best_form(&learned.sample, self.form, manner.sharpening > 0, rng);
         learned.sample.join(learned.level);
         self.form = Some(form);
         proposal(&learned.sample, form, rng).ok_or_else(|| density.nowhere_finite())

@@ -75,9 +75,11 @@ fn explored<const D: usize>(
         let frozen = freeze(&mut adaptation, density, &plan, &mut rng, &mut far);
         density.source.go_on()?;
         if !frozen.surprised || adaptation.is_used_up(&plan, density.evaluations()) {
-            let pool = Pool::new(&adaptation, &frozen, density, particles, &mut scramblings);
-            let is_final = matches!(pool.objection(particles), None | Some(Objection::Undefined(_)));
-            if is_final || !plan.extend() {
+            let pool = Pool::new(&adaptation, &frozen, density, (particles, &plan), &mut scramblings);
+            let objection = pool.objection(particles);
+            let is_final = matches!(objection, None | Some(Objection::Undefined(_)));
+            let hanging = matches!(objection, Some(Objection::Hanging { .. }));
+            if is_final || !plan.extend(hanging) {
                 return Ok(pool);
             }
             density.source.limit = plan.evaluations;

@@ -7,7 +7,7 @@ use crate::adapt::Adaptation;
 use crate::density::Density;
 use crate::fold::Fold;
 use crate::lanes::{LANES, packed};
-use crate::learn::{Spending, learn};
+use crate::learn::{Manner, learn};
 use crate::mixture::Mixture;
 use crate::options::Plan;
 use crate::propose::{best_form, proposal};
@@ -50,11 +50,12 @@ pub(super) fn freeze<const D: usize>(
     let rest =
         |density: &Density<'_, D>| plan.evaluations.saturating_sub(density.evaluations()) as usize / LANES * LANES;
     let sharpening = plan.sharpening(adapted.share, size, SHARPENING).min(rest(density) / 4);
-    let spending = Spending {
+    let manner = Manner {
+        hanging: plan.hanging,
         sharpening,
         walking: (rest(density) / 8) as u64,
     };
-    let mut learned = learn(&source, spending, density, rng);
+    let mut learned = learn(&source, manner, density, rng);
     let form = best_form(&learned.sample, adapted.form, sharpening > 0, rng);
     learned.sample.join(learned.level);
     adapted.forget_beginnings();

@@ -41,9 +41,11 @@ pub(super) struct Learned<const D: usize> {
     pub level: Sample<D>,
 }
 
-/// What may be spent on learning beside the points that are there.
+/// How to learn, and what may be spent on it beside the points that are there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spending {
+pub(super) struct Manner {
+    /// Whether second moments are known to hang on few points.
+    pub hanging: bool,
     /// Scores that the curvature at places for kernels may take, 0 for none.
     pub sharpening: usize,
     /// Evaluations that walks along ridges may take.
@@ -53,7 +55,7 @@ pub(super) struct Spending {
 /// What these folds teach.
 pub(super) fn learn<const D: usize>(
     source: &[&Fold<D>],
-    spending: Spending,
+    manner: Manner,
     density: &mut Density<'_, D>,
     rng: &mut ChaCha8Rng,
 ) -> Learned<D> {
@@ -66,7 +68,7 @@ pub(super) fn learn<const D: usize>(
         wanted.min(LARGEST_TEMPERED).min(TEMPERED_SHARE * logs.len() as f64),
     );
     let mut weights = tempered(&logs, gamma);
-    let tilt = Tilt::of(&points, &weights);
+    let tilt = Tilt::of(&points, &weights, manner.hanging);
     for (weight, x) in weights.iter_mut().zip(&points) {
         *weight *= tilt.log(x).exp();
     }
@@ -90,7 +92,7 @@ pub(super) fn learn<const D: usize>(
             fold,
             &sample,
             lowest,
-            spending.walking / source.len() as u64,
+            manner.walking / source.len() as u64,
             density,
         ));
     }
@@ -100,11 +102,11 @@ pub(super) fn learn<const D: usize>(
             *log += tilt.log(x);
         }
     }
-    if spending.sharpening == 0 {
+    if manner.sharpening == 0 {
         return Learned { sample, level };
     }
     sample.join(level);
-    let mut seats = systematic(&sample.weights, spending.sharpening / (D + 1), rng.random());
+    let mut seats = systematic(&sample.weights, manner.sharpening / (D + 1), rng.random());
     seats.dedup();
     let points: Vec<[f64; D]> = seats.iter().map(|&i| sample.points[i]).collect();
     let covariances = local_covariances(&sample, &points, NEIGHBOURS * D);

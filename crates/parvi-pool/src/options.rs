@@ -54,6 +54,8 @@ pub(super) struct Plan {
     pub adapted: f64,
     pub goal: f64,
     pub search_effort: f64,
+    /// Whether a pool was met whose second moments hang on few points.
+    pub hanging: bool,
 }
 
 impl PoolOptions {
@@ -103,13 +105,19 @@ impl PoolOptions {
             adapted: 0.5 * goal,
             goal,
             search_effort: effort,
+            hanging: false,
         })
     }
 }
 
 impl Plan {
-    /// Twice as many evaluations, as far as there may be more.
-    pub(super) fn extend(&mut self) -> bool {
+    /// Twice as many evaluations, as far as there may be more; where second moments hang on few points, for an effective size that is twice as large.
+    pub(super) fn extend(&mut self, hanging: bool) -> bool {
+        if hanging {
+            self.hanging = true;
+            self.adapted *= 2.0;
+            self.goal *= 2.0;
+        }
         let before = self.evaluations;
         self.evaluations = (2 * before).min(self.most);
         self.evaluations > before

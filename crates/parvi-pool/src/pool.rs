@@ -13,7 +13,7 @@ use crate::estimate::Estimate;
 use crate::fold::{Fold, joined};
 use crate::freeze::Frozen;
 use crate::measure::Measure;
-use crate::options::Round;
+use crate::options::{Plan, Round};
 use crate::referee::{Objection, Verdict};
 use crate::sample::moments;
 use crate::weights::effective_size;
@@ -52,6 +52,8 @@ pub struct Pool<const D: usize> {
     pub quiet: f64,
     /// Draws of searches' wide law since they last met a piece.
     pub drawn_in_vain: u64,
+    /// Whether its proposals had an earlier pool whose second moments hang on few points.
+    pub(crate) had_hung: bool,
     /// Points at which log p was evaluated.
     pub density_evaluations: u64,
     /// Points at which the score was evaluated.
@@ -79,7 +81,7 @@ impl<const D: usize> Pool<D> {
         adaptation: &Adaptation<D>,
         frozen: &Frozen<D>,
         density: &Density<'_, D>,
-        particles: usize,
+        (particles, plan): (usize, &Plan),
         rng: &mut ChaCha8Rng,
     ) -> Self {
         let frame = density.frame;
@@ -110,6 +112,7 @@ impl<const D: usize> Pool<D> {
             inconsistency: inconsistency.unwrap_or(0.0),
             quiet: adaptation.quiet(),
             drawn_in_vain: adaptation.drawn_in_vain(),
+            had_hung: plan.hanging,
             density_evaluations: density.density_evaluations,
             score_evaluations: density.score_evaluations,
             values_replaced: density.replaced,
@@ -137,7 +140,14 @@ impl<const D: usize> Pool<D> {
         let objection = self.verdict.objection(self.log_evidence_error, variance);
         let inconsistent = (self.inconsistency > LARGEST_INCONSISTENCY).then_some(self.inconsistency);
         let searching = (self.quiet < QUIET).then_some(Objection::Searching(self.quiet));
-        objection.or(inconsistent.map(Objection::Inconsistent)).or(searching)
+        let hanging = || {
+            let (axis, share) = self.hanging()?;
+            Some(Objection::Hanging { axis, share })
+        };
+        objection
+            .or(inconsistent.map(Objection::Inconsistent))
+            .or(searching)
+            .or_else(hanging)
     }
 
     /// What searches can have overlooked: the share v of their law's draws from which a piece is seen, such that with probability 0.05 none of the `n` that met

@@ -33,6 +33,13 @@ pub enum Objection {
     /// Searches that met a piece were not followed by twice as long ones that met none; the quotient. A. M. Turing's argument, of which I. J. Good tells: where
     /// something was still met of late, there is more.
     Searching(f64),
+    /// A second moment hangs on few points: less than 1/16 of the effective size carries it, or less than 3/16 after an objection of this kind, from which on proposals aim at second moments.
+    Hanging {
+        /// Axis, from 1.
+        axis: usize,
+        /// [`Estimate::carriers`](crate::Estimate::carriers) over the effective size.
+        share: f64,
+    },
 }
 
 /// What fresh points of a frozen proposal say.

@@ -46,7 +46,7 @@ mod task;
 mod view;
 mod watching;
 
-pub use certificate::{Certificate, EstimatedMoment, Expectation, MomentEstimate, Outcome, expectation};
+pub use certificate::{Certificate, Doubt, EstimatedMoment, Expectation, MomentEstimate, Outcome, expectation};
 pub use checkpoint::Checkpoint;
 pub use compiled::{sample, sample_in};
 pub use exact::{independent_draws, sobol_points};

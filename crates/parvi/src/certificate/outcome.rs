@@ -116,7 +116,7 @@ pub enum Doubt {
         /// Its variance over that of as many independent draws as there are particles.
         variance: f64,
     },
-    /// Too few points carry the second moment of a coordinate for its standard error to be known.
+    /// Too few points carry the second moment of a coordinate for its standard error to be known: [`Objection::Hanging`](parvi_pool::Objection::Hanging).
     #[error("the standard deviation of x{axis} hangs on few points: {:.1} % of the effective size of the pool, and there may be more of the tail", 100.0 * .share)]
     Hangs {
         /// Axis.

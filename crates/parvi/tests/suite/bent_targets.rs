@@ -1,6 +1,6 @@
 //! Targets that are bent, long, thin or heavy.
 
-use parvi::{Method, MpmOptions, Outcome, Run, Samples, Silent, Start, sample};
+use parvi::{Doubt, Method, MpmOptions, Outcome, Pool, Run, Samples, Silent, Start, sample};
 use parvi_metrics::{Cloud, CloudMoments, EnergyReference, Standardiser};
 use parvi_targets::{Banana, CatalogueTarget, Cross, Funnel, Moments, Ring, Rosenbrock};
 use rand::SeedableRng;
@@ -129,28 +129,44 @@ fn a_cross_is_better_than_independent_draws() {
     assert!(reached < 0.5, "{reached}");
 }
 
-/// A parabola over a parabola: the pool's standard deviation is more than a fifth low, and its stated error less than 4 %.
+/// The pool of 1,000 particles, and why they are not vouched for.
+fn of_parabola_over_parabola(width: f64, seed: u64) -> (Rosenbrock<3>, Pool<3>, Option<Doubt>) {
+    let target = Rosenbrock::new(1.0, width).expect("scales");
+    let samples = MpmOptions::default()
+        .sample(&target, &target.frame(), &Run::new(1000, seed), &mut Silent)
+        .expect("particles");
+    let doubt = match samples.certificate.expect("a certificate").outcome {
+        Outcome::Stalled(doubt) => Some(doubt),
+        _ => None,
+    };
+    (target, *samples.pool.expect("a pool"), doubt)
+}
+
+/// The standard deviation of x₃ by the pool, and its stated error, over the truth.
+fn of_last((target, pool): (&Rosenbrock<3>, &Pool<3>)) -> (f64, f64) {
+    let truth = target.moments().expect("a closed form").covariance.0[2][2].sqrt();
+    let (deviation, error) = pool.marginals()[2].deviation();
+    (deviation / truth, error / truth)
+}
+
+/// The first pools have standard deviations a fifth too low, by few points: what is left of the evaluations follows these.
+#[test]
+fn a_tail_that_hangs_on_few_points_is_followed() {
+    for seed in [8, 9] {
+        let (target, pool, _) = of_parabola_over_parabola(0.3, seed);
+        let (deviation, _) = of_last((&target, &pool));
+        assert!((deviation - 1.0).abs() < 0.05, "{seed}: {deviation}");
+    }
+}
+
+/// Where the parabolas are so thin that all evaluations do not suffice the standard deviation is more than a tenth low, and its stated error less than 4 %.
 #[test]
 fn a_tail_of_which_few_points_are_known_is_not_vouched_for() {
-    let target = Rosenbrock::<3>::new(1.0, 0.3).expect("scales");
-    let truth = target.moments().expect("a closed form").covariance.0[2][2].sqrt();
-    for seed in [8, 9] {
-        let samples = MpmOptions::default()
-            .sample(&target, &target.frame(), &Run::new(1000, seed), &mut Silent)
-            .expect("particles");
-        let pool = samples.pool.expect("a pool");
-        let mean = pool.expectation(|x| x[2]).value;
-        let square = pool.expectation(|x| (x[2] - mean).powi(2));
-        let deviation = square.value.sqrt();
-        let stated = 0.5 * square.standard_error / square.value;
-        assert!(
-            deviation < 0.8 * truth && stated < 0.04,
-            "{seed}: {deviation} of {truth}, {stated}"
-        );
-        let outcome = samples.certificate.expect("a certificate").outcome;
-        let Outcome::Stalled(doubt) = outcome else {
-            panic!("{seed}: {outcome}");
-        };
-        assert!(doubt.to_string().contains("x3 hangs on few points"), "{seed}: {doubt}");
+    for seed in [12, 17] {
+        let (target, pool, doubt) = of_parabola_over_parabola(0.05, seed);
+        let (deviation, stated) = of_last((&target, &pool));
+        assert!(deviation < 0.9 && stated < 0.04, "{seed}: {deviation} ± {stated}");
+        let doubt = doubt.expect("a doubt").to_string();
+        assert!(doubt.contains("x3 hangs on few points"), "{seed}: {doubt}");
     }
 }

@@ -1,0 +1,63 @@
+//! What a pool says of one coordinate, and whether that can be relied on.
+
+use mpm_tensor::power_of_two;
+
+use crate::estimate::Estimate;
+use crate::pool::Pool;
+
+/// Share of the effective size that carries a second moment, at least: where proposals aim at p √r at the most, and where they aim at p r, since one was less, of which of a normal law three times as much as of independent draws does.
+const LEAST_CARRIED: f64 = 1.0 / 16.0;
+const LEAST_CARRIED_AFTER: f64 = 3.0 / 16.0;
+
+/// Mean and variance of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marginal {
+    /// E\[x\].
+    pub mean: Estimate,
+    /// E\[(x − m)²\], m the estimated mean.
+    pub variance: Estimate,
+}
+
+impl Marginal {
+    /// The standard deviation and its standard error.
+    pub fn deviation(&self) -> (f64, f64) {
+        let deviation = self.variance.value.max(0.0).sqrt();
+        (deviation, self.variance.standard_error / (2.0 * deviation))
+    }
+}
+
+impl<const D: usize> Pool<D> {
+    /// Mean and variance of every coordinate, by [`expectation`](Self::expectation).
+    pub fn marginals(&self) -> [Marginal; D] {
+        let (_, deviation) = self.measure.mean_and_deviation();
+        std::array::from_fn(|axis| {
+            // In units of a power of two, which rounds nothing: squares of squares of large coordinates overflow.
+            let unit = power_of_two(deviation[axis]);
+            let in_units = |of: Estimate, unit: f64| Estimate {
+                value: of.value * unit,
+                standard_error: of.standard_error * unit,
+                ..of
+            };
+            let mean = in_units(self.expectation(|x| x[axis] / unit), unit);
+            let variance = self.expectation(|x| ((x[axis] - mean.value) / unit).powi(2));
+            Marginal {
+                mean,
+                variance: in_units(variance, unit * unit),
+            }
+        })
+    }
+
+    /// The axis, from 1, whose second moment the least share of the effective size carries, and that share, if it is too little. Of independent draws it is one over the kurtosis, 1/3 of normal ones: where it
+    /// is less than 1/16, or than 3/16 once it was, there may be a longer tail than was met, of which no standard error says anything.
+    pub(crate) fn hanging(&self) -> Option<(usize, f64)> {
+        let size = self.effective_size();
+        let shares = (1..).zip(self.marginals().map(|marginal| marginal.variance.carriers / size));
+        let least = shares.min_by(|(_, one), (_, other)| one.total_cmp(other));
+        let enough = if self.had_hung {
+            LEAST_CARRIED_AFTER
+        } else {
+            LEAST_CARRIED
+        };
+        least.filter(|(_, share)| *share < enough)
+    }
+}
