@@ -4,6 +4,8 @@
 
 #![allow(clippy::print_stdout)]
 
+mod over_seeds;
+
 use mpm_tensor::vector;
 use parvi::{MpmOptions, Run, Silent};
 use parvi_metrics::{Cloud, ModeMasses};
@@ -48,14 +50,9 @@ fn measure<const D: usize>(seed: u64, particles: usize) -> Result<(), Box<dyn st
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
-    let (first, count, particles) = (number(0)?, number(20)?, number(4096)? as usize);
-    println!("dim,seed,outcome,largest_error,evaluations_per_particle");
-    for seed in first..first + count {
-        measure::<2>(seed, particles)?;
-        measure::<4>(seed, particles)?;
-        measure::<6>(seed, particles)?;
-    }
-    Ok(())
+    over_seeds::print(
+        [0, 20, 4096],
+        "dim,seed,outcome,largest_error,evaluations_per_particle",
+        &[measure::<2>, measure::<4>, measure::<6>],
+    )
 }

@@ -4,6 +4,8 @@
 
 #![allow(clippy::print_stdout)]
 
+mod over_seeds;
+
 use parvi::{MpmOptions, Run, Silent};
 use parvi_metrics::yardstick::{Coordinates, TargetYardstick, YardstickOptions};
 use parvi_targets::{Frame, RandomTarget};
@@ -28,16 +30,9 @@ fn compare<const D: usize>(seed: u64, particles: usize) -> Result<(), Box<dyn st
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
-    let (first, count, particles) = (number(0)?, number(20)?, number(1000)? as usize);
-    println!("dim,target_seed,outcome,stated,true");
-    for seed in first..first + count {
-        compare::<1>(seed, particles)?;
-        compare::<2>(seed, particles)?;
-        compare::<3>(seed, particles)?;
-        compare::<4>(seed, particles)?;
-        compare::<6>(seed, particles)?;
-    }
-    Ok(())
+    over_seeds::print(
+        [0, 20, 1000],
+        "dim,target_seed,outcome,stated,true",
+        &[compare::<1>, compare::<2>, compare::<3>, compare::<4>, compare::<6>],
+    )
 }

@@ -4,6 +4,8 @@
 
 #![allow(clippy::print_stdout)]
 
+mod over_seeds;
+
 use parvi::{AisOptions, Condensation, Run, Silent};
 use parvi_metrics::yardstick::{Coordinates, TargetYardstick, YardstickOptions};
 use parvi_targets::{Frame, RandomTarget};
@@ -35,15 +37,9 @@ fn compare<const D: usize>(seed: u64, particles: usize) -> Result<(), Box<dyn st
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
-    let (first, count, particles) = (number(0)?, number(10)?, number(1000)? as usize);
-    println!("dim,target_seed,effective_share,off,controlled,quotient");
-    for seed in first..first + count {
-        compare::<2>(seed, particles)?;
-        compare::<3>(seed, particles)?;
-        compare::<4>(seed, particles)?;
-        compare::<6>(seed, particles)?;
-    }
-    Ok(())
+    over_seeds::print(
+        [0, 10, 1000],
+        "dim,target_seed,effective_share,off,controlled,quotient",
+        &[compare::<2>, compare::<3>, compare::<4>, compare::<6>],
+    )
 }

@@ -13,42 +13,31 @@ pub struct Arguments {
     _all: Vec<OsString>,
 }
 
-/// The error for what was asked, with the feature that has it.
-const fn left_out(asked: &'static str, feature: &'static str) -> CommandError {
-    CommandError::LeftOut { asked, feature }
+/// A module in the place of a command: what is asked of it names the feature that has it.
+macro_rules! without {
+    ($feature:literal, $command:ident, $asked:literal, $reported:literal) => {
+        #[doc = concat!("For `", stringify!($command), "`.")]
+        #[cfg(any(test, not(feature = $feature)))]
+        pub mod $command {
+            pub use super::*;
+
+            /// Says which feature has the command.
+            pub fn execute(_: &Arguments) -> Result<(), CommandError> {
+                let (asked, feature) = ($asked, $feature);
+                Err(CommandError::LeftOut { asked, feature })
+            }
+
+            /// As [`execute`].
+            pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
+                let (asked, feature) = (concat!("parvi report of ", $reported), $feature);
+                Err(CommandError::LeftOut { asked, feature })
+            }
+        }
+    };
 }
 
-/// For `simulate`.
-#[cfg(any(test, not(feature = "mechanics")))]
-pub mod simulate {
-    pub use super::*;
-
-    /// Says which feature has the command.
-    pub fn execute(_: &Arguments) -> Result<(), CommandError> {
-        Err(left_out("parvi simulate", "mechanics"))
-    }
-
-    /// As [`execute`].
-    pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
-        Err(left_out("parvi report of a simulated scene", "mechanics"))
-    }
-}
-
-/// For `rom`.
-#[cfg(any(test, not(feature = "rom")))]
-pub mod rom {
-    pub use super::*;
-
-    /// Says which feature has the command.
-    pub fn execute(_: &Arguments) -> Result<(), CommandError> {
-        Err(left_out("parvi rom", "rom"))
-    }
-
-    /// As [`execute`].
-    pub fn report(_: &std::path::Path) -> Result<(), CommandError> {
-        Err(left_out("parvi report of a reduced-order model", "rom"))
-    }
-}
+without!("mechanics", simulate, "parvi simulate", "a simulated scene");
+without!("rom", rom, "parvi rom", "a reduced-order model");
 
 #[cfg(test)]
 mod tests {

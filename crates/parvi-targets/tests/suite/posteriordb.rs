@@ -99,17 +99,9 @@ fn series_in_time() {
 }
 
 #[test]
-fn gaussian_process() {
+fn a_process_a_mixture_and_an_equation() {
     check(GaussianProcess::posterior());
-}
-
-#[test]
-fn normal_mixture() {
     check(NormalMixture::posterior());
-}
-
-#[test]
-fn lotka_volterra() {
     check(LotkaVolterra::posterior());
 }
 
