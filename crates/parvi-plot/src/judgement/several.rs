@@ -4,6 +4,9 @@ use super::figure::{guides, levels};
 use super::{Judgement, MeasuredSeries, Verdict};
 use crate::{Axis, AxisKind, LineSeries, MultiplesPanel, MultiplesPlot};
 
+/// Largest x over the least, both positive, from which on x has a logarithmic axis.
+const LOGARITHMIC_FROM: f64 = 2.0;
+
 /// Judgements of series.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
@@ -57,16 +60,17 @@ impl Asked<'_> {
         self.judgements.iter().flat_map(of).collect()
     }
 
-    /// The numbers against x with what is asked beside them. A line is named even if it is the only one, if only by `name`, with gaps where runs ended before
-    /// their time; powers are over logarithms.
+    /// The numbers against x, over logarithms where the largest is twice the least or more, with what is asked beside them. A line is named even if it is the only one, if only by `name`, with
+    /// gaps where runs ended before their time; powers are over logarithms.
     pub fn plot(&self, series: &[MeasuredSeries], name: &str, [x_label, y_label]: [&str; 2]) -> MultiplesPlot {
         let shown: Vec<&MeasuredSeries> = series.iter().filter(|series| !series.points.is_empty()).collect();
         let judged: Vec<&MeasuredSeries> = shown.iter().copied().filter(|series| self.is_judged(series)).collect();
         let is_power =
             |judgement: &Judgement| matches!(judgement, Judgement::Order { .. } | Judgement::PowerLaw { .. });
         let power = self.judgements.iter().any(is_power);
-        let mut points = shown.iter().flat_map(|series| &series.points);
-        let positive = points.all(|point| point.x > 0.0);
+        let x = || shown.iter().flat_map(|series| &series.points).map(|point| point.x);
+        let [least, largest] = [x().fold(f64::INFINITY, f64::min), x().fold(0.0, f64::max)];
+        let spread = least > 0.0 && largest >= LOGARITHMIC_FROM * least;
         let scale = |is_logarithmic: bool, otherwise: AxisKind| match is_logarithmic {
             true => AxisKind::Logarithmic,
             false => otherwise,
@@ -76,7 +80,7 @@ impl Asked<'_> {
             LineSeries::through(label.unwrap_or(name), series.pairs_with_gaps())
         };
         MultiplesPlot {
-            x: Axis::new(x_label, scale(positive, AxisKind::Linear)),
+            x: Axis::new(x_label, scale(spread, AxisKind::Linear)),
             y: Axis::new(y_label, scale(power, AxisKind::Automatic)),
             panels: vec![MultiplesPanel {
                 series: shown.iter().map(line).collect(),
