@@ -58,6 +58,8 @@ fn explored<const D: usize>(
     density.source.go_on()?;
     let mut adaptation = begun?;
     let mut is_due = false;
+    // log Z and its error before proposals aimed at second moments.
+    let mut aimed_at_the_target = None;
     loop {
         while is_due || !adaptation.is_over(&plan, density.evaluations()) {
             is_due = false;
@@ -80,7 +82,13 @@ fn explored<const D: usize>(
             let is_final = matches!(objection, None | Some(Objection::Undefined(_)));
             let hanging = matches!(objection, Some(Objection::Hanging { .. }));
             if is_final || !plan.extend(hanging) {
-                return Ok(pool);
+                return Ok(match aimed_at_the_target {
+                    Some(earlier) => pool.keeping(earlier),
+                    None => pool,
+                });
+            }
+            if hanging {
+                aimed_at_the_target.get_or_insert((pool.log_evidence, pool.log_evidence_error));
             }
             density.source.limit = plan.evaluations;
             is_due = true;

@@ -134,6 +134,21 @@ impl<const D: usize> Pool<D> {
         (-2.0 * divergence / D as f64).exp()
     }
 
+    /// With log Z and its error of an earlier pool, where that error is less and both agree: proposals that aim at second moments know them better, and log Z worse.
+    pub(crate) fn keeping(self, (log_evidence, log_evidence_error): (f64, f64)) -> Self {
+        let apart = (log_evidence - self.log_evidence).abs();
+        let agrees = apart <= LARGEST_INCONSISTENCY * log_evidence_error.hypot(self.log_evidence_error);
+        if agrees && log_evidence_error < self.log_evidence_error {
+            Self {
+                log_evidence,
+                log_evidence_error,
+                ..self
+            }
+        } else {
+            self
+        }
+    }
+
     /// The first reason, if any, not to rely on these weights for so many particles.
     pub fn objection(&self, particles: usize) -> Option<Objection> {
         let variance = self.measure.variance * particles as f64;

@@ -1,6 +1,7 @@
 //! What a run is made of.
 
 mod folds;
+mod kept_evidence;
 mod level_set;
 mod mixtures;
 mod reach;
