@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::Path;
 
-use parvi_experiments::AtomicFile;
 use parvi_experiments::plots::{
     Axis, AxisKind, CellAxis, HeatMapPlot, HeatPanel, LineSeries, MultiplesPanel, MultiplesPlot, heat_map, multiples,
 };
+use parvi_files::AtomicFile;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 

@@ -4,8 +4,8 @@
 //! `x_lower,y_lower,x_upper,y_upper`; COLUMNS is how many frames stand in a row.
 
 use mpm_scenes::output::Frame;
-use parvi_experiments::AtomicFile;
 use parvi_experiments::plots::{SnapshotPanel, SnapshotsPlot, snapshots};
+use parvi_files::AtomicFile;
 
 /// Anything may go wrong in an example.
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;

@@ -29,7 +29,7 @@ pub(crate) use in_dimension;
 /// Work on a target in its own dimension: `on_target!(specification, target, D => …)`, in a function that gives a result.
 macro_rules! on_target {
     ($specification:expr, $target:ident, $D:ident => $work:expr) => {{
-        let specification: &$crate::options::TargetSpecification = $specification;
+        let specification: &parvi_options::TargetSpecification = $specification;
         $crate::dispatch::in_dimension!(&specification.name, specification.dimension()?, $D => {
             let $target = specification.build::<$D>()?;
             $work

@@ -1,14 +1,15 @@
 //! The one error type of the command.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use mpm_document::DocumentError;
 use parvi::SampleError;
+use parvi_files::FileError;
 use parvi_metrics::MetricError;
+use parvi_options::OptionError;
 use parvi_targets::TargetError;
 use thiserror::Error;
 
-use crate::options::OptionError;
 use crate::plots::PlotError;
 use crate::statistics::StatisticsError;
 use crate::study::Failure;
@@ -49,14 +50,9 @@ pub enum CommandError {
     /// A flag does not fit the method or has a value outside of its range.
     #[error("--{0}")]
     Flag(#[from] OptionError),
-    /// The extension of the output file is not one that can be written.
-    #[error("--{flag} {}: the extension must be .csv or .npy", .path.display())]
-    OutputExtension {
-        /// The flag, without dashes in front.
-        flag: &'static str,
-        /// The file asked for.
-        path: PathBuf,
-    },
+    /// A file that cannot be read or written, or does not hold what it should.
+    #[error(transparent)]
+    Files(#[from] FileError),
     /// A pool was asked for, and nothing could be weighed.
     #[error(
         "--pool: nothing could be weighed, so that there is no pool; the particles are those of a body without a survey"
@@ -69,16 +65,6 @@ pub enum CommandError {
         what: String,
         /// What came out.
         value: f64,
-    },
-    /// A file or directory could not be read or written.
-    #[error("cannot {operation} {path}: {source}")]
-    File {
-        /// What was tried, e.g. `write`.
-        operation: &'static str,
-        /// The file.
-        path: String,
-        /// What the system said.
-        source: std::io::Error,
     },
     /// A configuration does not say what it has to, or says too much.
     #[error(transparent)]
@@ -129,14 +115,6 @@ pub enum CommandError {
         /// The directory.
         directory: String,
     },
-    /// A study's own file does not hold what a study writes.
-    #[error("{file}: {message}")]
-    ResultsUnreadable {
-        /// The file.
-        file: String,
-        /// What is wrong, with line and value.
-        message: String,
-    },
     /// A case of a study gave nothing, which is its result.
     #[error("{}", .0.reason)]
     Failed(Failure),
@@ -159,19 +137,12 @@ pub enum CommandError {
 impl CommandError {
     /// An operation on a file failed.
     pub fn file(operation: &'static str, path: impl AsRef<Path>, source: std::io::Error) -> Self {
-        Self::File {
-            operation,
-            path: path.as_ref().display().to_string(),
-            source,
-        }
+        FileError::system(operation, path, source).into()
     }
 
     /// A study's own file does not hold what a study writes.
     pub fn unreadable(path: &Path, message: impl ToString) -> Self {
-        Self::ResultsUnreadable {
-            file: path.display().to_string(),
-            message: message.to_string(),
-        }
+        FileError::unreadable(path, message).into()
     }
 
     /// Whether the command was interrupted rather than failed.

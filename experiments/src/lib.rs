@@ -1,8 +1,7 @@
 //! The `parvi` command: sampling, studies, reports and plots.
 //!
-//! [`command`] parses the command line; `options` holds what flags and configurations share; `sampling` runs a sampler
-//! on a target of run-time dimension; `output` writes particles; `study` runs lists of cases into a directory and
-//! reports on them with [`plots`] and [`statistics`].
+//! [`command`] parses the command line; `sampling` runs a sampler on a target of run-time dimension; `study` runs lists of cases into a directory and
+//! reports on them with [`plots`] and [`statistics`]. What flags and configurations share is the crate `parvi-options`, files of particles and pictures of a run are `parvi-files`.
 
 pub mod command;
 mod console;
@@ -13,16 +12,12 @@ mod interrupt;
 mod machine;
 #[cfg(feature = "mechanics")]
 mod mechanics;
-mod options;
-mod output;
-mod pictures;
 mod progress;
 mod provenance;
 mod sampling;
 mod study;
 
 pub use error::CommandError;
-pub use output::AtomicFile;
 pub use parvi_plot::{self as plots, statistics};
 
 /// Runs the code of the workspace's README as a doc test.

@@ -84,8 +84,8 @@ fn parsed() -> Result<CommandLine, clap::Error> {
 /// What a line asks of a method, a target or a build that they do not have is a line that makes no sense to them.
 fn exit_code(error: &CommandError) -> u8 {
     match error {
+        CommandError::Files(error) if error.is_of_request() => 2,
         CommandError::Flag(_)
-        | CommandError::OutputExtension { .. }
         | CommandError::OtherKind { .. }
         | CommandError::LeftOut { .. }
         | CommandError::Sample(

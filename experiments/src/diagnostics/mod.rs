@@ -4,9 +4,11 @@ mod moments;
 
 use std::collections::BTreeMap;
 
+use parvi_files::{Outcome, Particles};
 use parvi_metrics::{
     Cloud, CloudMoments, InverseMultiquadric, MetricError, effective_sample_size, kernel_stein_discrepancy, quantiles,
 };
+use parvi_options::TargetSpecification;
 use parvi_targets::{CatalogueTarget, Frame, scores_in_calls};
 use serde::Serialize;
 
@@ -15,11 +17,9 @@ use moments::{Moment, of_certificate, of_expectations};
 use crate::CommandError;
 use crate::console::Pair;
 use crate::dispatch::on_target;
-use crate::options::TargetSpecification;
-use crate::output::Particles;
 use crate::plots::results::Value;
 use crate::provenance::Provenance;
-use crate::sampling::{Outcome, unless_failed};
+use crate::sampling::unless_failed;
 
 /// Levels of the quantiles.
 const LEVELS: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];

@@ -3,10 +3,10 @@
 use std::collections::HashSet;
 
 use parvi::Method;
+use parvi_options::{Bounded, MethodSpecification, OptionError};
 
 use super::definition::Case;
 use crate::CommandError;
-use crate::options::{Bounded, MethodSpecification, OptionError};
 
 /// The error for a field whose value does not fit; the runner adds the file.
 pub fn refusal(field: &str, message: impl Into<String>) -> CommandError {

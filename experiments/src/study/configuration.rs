@@ -6,12 +6,12 @@ use std::ops::Range;
 use std::path::Path;
 
 use mpm_document::{DocumentError, Place};
+use parvi_options::Bounded;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::{Spanned, Table, Value};
 
 use crate::CommandError;
-use crate::options::Bounded;
 
 /// The text of a configuration and what can be said about it before its kind is known.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ impl Configuration {
     /// Reads the file and its `kind`.
     ///
     /// # Errors
-    /// [`CommandError::File`] if it cannot be read, [`CommandError::Config`] if it is no TOML or has no `kind`.
+    /// [`CommandError::Files`] if it cannot be read, [`CommandError::Config`] if it is no TOML or has no `kind`.
     pub fn read(path: &Path) -> Result<Self, CommandError> {
         let text = fs::read_to_string(path).map_err(|source| CommandError::file("read", path, source))?;
         Self::from_text(path.display().to_string(), text)
@@ -189,7 +189,7 @@ fn of_bytes(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::ParticleCount;
+    use parvi_options::ParticleCount;
 
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
+use parvi_options::{MethodSpecification, ParticleCount};
 use serde::de::DeserializeOwned;
 
 use super::directory::StudyDirectory;
 use super::status::Status;
 use super::yardstick::CurrentYardstick;
 use crate::CommandError;
-use crate::options::{MethodSpecification, ParticleCount};
 use crate::plots::page::Page;
 use crate::plots::results::{Row, Rows, Value};
 use crate::progress::Bar;

@@ -4,9 +4,10 @@ use std::fmt::Display;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use parvi_files::AtomicFile;
+
 use super::configuration::Configuration;
 use crate::CommandError;
-use crate::output::AtomicFile;
 use crate::plots::page::Page;
 
 /// The name of the configuration in it.
@@ -29,7 +30,7 @@ impl StudyDirectory {
     ///
     /// # Errors
     /// [`CommandError::DirectoryOccupied`] if it holds something else, which is left untouched;
-    /// [`CommandError::File`] if it cannot be made or written, or another process runs a study in it.
+    /// [`CommandError::Files`] if it cannot be made or written, or another process runs a study in it.
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
         let mut directory = Self::of(path, configuration);
         let existing = directory.file(CONFIGURATION);

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use parvi_files::AtomicFile;
 use serde::{Deserialize, Serialize};
 
 use crate::CommandError;
-use crate::output::AtomicFile;
 use crate::provenance::Provenance;
 
 /// The file's name.
@@ -56,10 +56,11 @@ impl Manifest {
 
     /// Writes it.
     pub fn write(&self, path: &Path) -> Result<(), CommandError> {
-        AtomicFile::filled(path, |writer| {
+        let written = AtomicFile::filled(path, |writer| {
             serde_json::to_writer_pretty(&mut *writer, self)?;
             writeln!(writer)
-        })
+        });
+        Ok(written?)
     }
 
     /// Whether all starts used the same code, compiler, processor and number of threads.

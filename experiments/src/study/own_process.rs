@@ -2,8 +2,9 @@
 
 use std::process::{Command, Stdio};
 
+use parvi_options::MethodSpecification;
+
 use crate::machine::PEAK_MEMORY_KEY;
-use crate::options::MethodSpecification;
 use crate::study::sampled::Sampled;
 
 /// Runs `parvi sample` with the same settings and reads its peak; `None` where the system does not tell.

@@ -1,11 +1,11 @@
 //! Targets in all the dimensions that they have.
 
+use parvi_options::{Dimension, TargetParameters, TargetSpecification};
 use parvi_targets::{Dimensions, TargetError, TargetInfo, target_info};
 use serde::Deserialize;
 
 use super::checks::{holds, not_empty, refusal};
 use crate::CommandError;
-use crate::options::{Dimension, TargetParameters, TargetSpecification};
 
 /// A target in all its dimensions: `{ name = "gaussian", parameters = { correlation = 0.9 } }`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

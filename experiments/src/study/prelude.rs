@@ -17,12 +17,12 @@ pub use super::sampled::{Sampled, timed};
 pub use super::status::Status;
 pub use super::yardstick::{Coordinates, Errors, IndependentSets, Yardstick, YardstickOptions};
 pub use crate::CommandError;
-pub use crate::options::{
-    Basis, Bounded, Dimension, MethodName, MethodOptions, MethodSpecification, ParticleCount, Score, StepCount,
-    TargetSpecification,
-};
 pub use crate::plots::page::{Cell, Line, MISSING, Page, each, number, percent};
 pub use crate::plots::results::{Row, Rows};
 pub use crate::plots::{GuideCurve, LineSeries, MultiplesPanel, MultiplesPlot, exponent_text, multiples};
 pub use crate::progress::Bar;
+pub use parvi_options::{
+    Basis, Bounded, Dimension, MethodName, MethodOptions, MethodSpecification, ParticleCount, Score, StepCount,
+    TargetSpecification,
+};
 pub use serde::Deserialize;

@@ -1,11 +1,11 @@
 //! What a target is held against that nobody knows in closed form: the importance sample of `parvi-targets`, whatever its dimension.
 
 use parvi::pareto_k;
+use parvi_files::Particles;
 use parvi_targets::{CatalogueTarget, ImportanceSample, ReferenceOptions};
 
 use super::prelude::*;
 use crate::dispatch::on_target;
-use crate::output::Particles;
 use crate::statistics::SampleMoments;
 
 /// What is kept of a coordinate: its name, E[x] and √Var[x] with their standard errors.

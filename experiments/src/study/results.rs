@@ -25,8 +25,8 @@ impl ResultsFile {
     /// columns, with spaces between; the rows so far come with it.
     ///
     /// # Errors
-    /// [`CommandError::File`], [`CommandError::DirectoryOccupied`] if another process works on it, or
-    /// [`CommandError::ResultsUnreadable`] with the line that does not fit.
+    /// [`CommandError::Files`], [`CommandError::DirectoryOccupied`] if another process works on it, or
+    /// [`CommandError::Files`] with the line that does not fit.
     pub fn open(path: &Path, columns: &'static str) -> Result<(Self, Vec<Row>), CommandError> {
         let failed = |operation| move |source| CommandError::file(operation, path, source);
         let mut options = OpenOptions::new();
@@ -71,7 +71,7 @@ impl ResultsFile {
 /// Reads the rows; a last line without its end is skipped.
 ///
 /// # Errors
-/// [`CommandError::File`], or [`CommandError::ResultsUnreadable`] with the line that does not fit.
+/// [`CommandError::Files`], with the line that does not fit.
 pub fn read(path: &Path, columns: &str) -> Result<Vec<Row>, CommandError> {
     once_each(path, row_file::read(path, columns)?)
 }

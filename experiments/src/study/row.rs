@@ -1,5 +1,7 @@
 //! What studies note in a row of results, and what they say of several.
 
+use parvi_files::Outcome;
+
 use super::attempt::{Failure, attempt};
 use super::status::Status;
 use super::value::ENDINGS;
@@ -7,7 +9,6 @@ use super::yardstick::Errors;
 use crate::CommandError;
 use crate::plots::page::Page;
 use crate::plots::results::{Row, Rows};
-use crate::sampling::Outcome;
 
 /// A run as a row. Columns that begin with `wall` depend on the machine, the others only on the seeds.
 pub trait RunRow {

@@ -3,10 +3,11 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use parvi_files::AtomicFile;
+use parvi_options::is_among;
+
 use super::value::{Written, read as cell};
 use crate::CommandError;
-use crate::options::is_among;
-use crate::output::AtomicFile;
 use crate::plots::results::Row;
 
 /// Writes the rows as lines, after a header where one is asked for.
@@ -33,15 +34,16 @@ pub fn fill<'a>(
 /// Writes all rows; a file that is there is replaced at once. Without rows it is empty.
 ///
 /// # Errors
-/// [`CommandError::File`].
+/// [`CommandError::Files`].
 pub fn write(path: &Path, columns: &str, rows: &[Row]) -> Result<(), CommandError> {
-    AtomicFile::filled(path, |writer| fill(writer, columns, !rows.is_empty(), rows))
+    let content = |writer: &mut dyn Write| fill(writer, columns, !rows.is_empty(), rows);
+    Ok(AtomicFile::filled(path, content)?)
 }
 
 /// Reads the rows; a last line without its end is skipped.
 ///
 /// # Errors
-/// [`CommandError::File`], or [`CommandError::ResultsUnreadable`] with the line that does not fit.
+/// [`CommandError::Files`], with the line that does not fit.
 pub fn read(path: &Path, columns: &str) -> Result<Vec<Row>, CommandError> {
     parse(path, &whole_lines(path)?, columns)
 }
@@ -70,7 +72,7 @@ pub fn whole(bytes: &[u8]) -> usize {
 /// The rows of a file; what it holds in other columns is left alone.
 ///
 /// # Errors
-/// [`CommandError::ResultsUnreadable`].
+/// [`CommandError::Files`].
 pub fn parse(path: &Path, bytes: &[u8], columns: &str) -> Result<Vec<Row>, CommandError> {
     let first = columns.split(' ').next().unwrap_or_default();
     let header = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use parvi::SampleError;
+use parvi_files::AtomicFile;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use super::attempt::of_reference;
@@ -16,7 +17,6 @@ use super::manifest::{self, Manifest};
 use super::results::{self, ResultsFile};
 use super::row::RunRow;
 use super::yardstick::CurrentYardstick;
-use crate::output::AtomicFile;
 use crate::plots::results::Row;
 use crate::progress::Bar;
 use crate::provenance::Provenance;

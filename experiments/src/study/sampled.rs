@@ -3,16 +3,17 @@
 use std::time::Instant;
 
 use parvi::{Method, Run};
+use parvi_files::Outcome;
+use parvi_options::{MethodSpecification, OptionError, TargetSpecification};
 
 use super::definition::Case;
 use super::derived::PER_STEP;
 use super::row::RunRow;
 use super::yardstick::Yardstick;
 use crate::CommandError;
-use crate::options::{MethodSpecification, OptionError, TargetSpecification};
 use crate::plots::results::{Row, Rows};
 use crate::progress::Bar;
-use crate::sampling::{self, Outcome};
+use crate::sampling;
 
 /// A method on a target.
 #[derive(Clone, Debug)]

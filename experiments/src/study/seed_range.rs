@@ -1,8 +1,7 @@
 //! Consecutive seeds.
 
+use parvi_options::Bounded;
 use serde::Deserialize;
-
-use crate::options::Bounded;
 
 /// `{ first = 0, count = 50 }`.
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -1,8 +1,7 @@
 //! How a case ended.
 
 use clap::ValueEnum;
-
-use crate::options::words;
+use parvi_options::words;
 
 words! {
     /// How a case ended, in the words of tables and files.

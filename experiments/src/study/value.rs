@@ -1,9 +1,9 @@
 //! What stands in a cell of results.csv.
 
+use parvi_options::is_among;
 use serde::{Serialize, Serializer};
 
 use super::status::Status;
-use crate::options::{Bounded, is_among};
 use crate::plots::results::Value;
 
 /// The columns that hold words; all others hold numbers.
@@ -42,12 +42,6 @@ impl Serialize for Written<'_> {
             Value::Count(count) => serializer.serialize_u64(*count),
             Value::Number(number) => serializer.serialize_f64(*number),
         }
-    }
-}
-
-impl<const LEAST: i64, const MOST: i64> From<Bounded<LEAST, MOST>> for Value {
-    fn from(count: Bounded<LEAST, MOST>) -> Self {
-        count.get().into()
     }
 }
 

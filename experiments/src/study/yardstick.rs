@@ -2,17 +2,16 @@
 
 use std::time::Instant;
 
+use parvi_files::{Outcome, Particles};
 pub use parvi_metrics::yardstick::{Coordinates, Errors, ReferenceError, YardstickOptions};
 use parvi_metrics::yardstick::{TargetYardstick, YardstickError};
+use parvi_options::TargetSpecification;
 
 use super::attempt::Failure;
 use super::status::Status;
 use crate::CommandError;
 use crate::dispatch::on_target;
-use crate::options::TargetSpecification;
-use crate::output::Particles;
 use crate::plots::results::Row;
-use crate::sampling::Outcome;
 use crate::statistics::summarize;
 
 /// Sets of independent draws, whose median sliced Wasserstein distance is the level of that distance.

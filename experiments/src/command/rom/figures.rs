@@ -4,9 +4,9 @@ use std::path::Path;
 
 use mpm_rom::experiment::Experiment;
 use mpm_rom::training::EpochReport;
+use parvi_files::AtomicFile;
 
 use crate::CommandError;
-use crate::output::AtomicFile;
 use crate::plots::results::{Row, Rows};
 use crate::plots::{Axis, AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
@@ -49,7 +49,7 @@ pub fn losses(directory: &Path, title: &str, history: &[EpochReport]) -> Result<
     });
     let panel = MultiplesPanel::over("mean loss", AxisKind::Logarithmic, series);
     let plot = MultiplesPlot::traces(format!("{title}: training"), "epoch", [panel]);
-    AtomicFile::write(directory.join("losses.svg"), multiples(&plot)?)
+    Ok(AtomicFile::write(directory.join("losses.svg"), multiples(&plot)?)?)
 }
 
 /// Test cases whose coordinates are drawn, at most.
@@ -89,7 +89,7 @@ pub fn coordinates(
     let (title, samples) = (&experiment.title, shown[0].0.value("samples"));
     let title = format!("{title}: coordinates, {samples} sample points");
     let plot = MultiplesPlot::traces(title, "time (s)", known.map(panel));
-    AtomicFile::write(path, multiples(&plot)?)
+    Ok(AtomicFile::write(path, multiples(&plot)?)?)
 }
 
 /// What lines may differ in, besides the choice of their points.

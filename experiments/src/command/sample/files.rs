@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use parvi_options::OptionError;
+
 use super::Arguments;
 use crate::CommandError;
-use crate::options::OptionError;
 
 /// Refuses one path in two roles; frames and pictures may share a directory, and files that are only read may be one.
 pub fn check(arguments: &Arguments) -> Result<(), CommandError> {

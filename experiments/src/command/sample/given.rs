@@ -4,13 +4,13 @@ use std::path::Path;
 
 use mpm_tensor::Matrix;
 use parvi::{GivenParticles, Run, SampleError, independent_draws, sobol_points};
+use parvi_files::NumberTable;
+use parvi_options::{Dimension, OptionError, TargetSpecification};
 use parvi_targets::{CatalogueTarget, Gaussian};
 
 use super::Arguments;
 use crate::CommandError;
 use crate::dispatch::{in_dimension, on_target};
-use crate::options::{Dimension, OptionError, TargetSpecification};
-use crate::output::NumberTable;
 
 /// Reads the files, and draws from the start's law where it has a name or a covariance; `names` are those of the target's coordinates, one for each dimension.
 ///
@@ -51,9 +51,15 @@ pub fn given(arguments: &Arguments, names: &[String], run: &Run) -> Result<Given
 }
 
 /// The numbers of a file: so many rows and columns, all finite. Columns count by their place, so that a header of the coordinates' `names` in another order is refused.
-fn read(flag: &str, path: &Path, rows: usize, columns: usize, names: &[String]) -> Result<Vec<f64>, OptionError> {
+fn read(
+    flag: &'static str,
+    path: &Path,
+    rows: usize,
+    columns: usize,
+    names: &[String],
+) -> Result<Vec<f64>, CommandError> {
     let table = NumberTable::read(flag, path)?;
-    let refused = |reason: String| OptionError::new(flag, format!("{}{reason}", path.display()));
+    let refused = |reason: String| OptionError::new(flag, format!("{}{reason}", path.display())).into();
     for (found, wanted, what) in [(table.columns, columns, "columns"), (table.rows(), rows, "rows")] {
         if found != wanted {
             return Err(refused(format!(" has {found} {what}, must have {wanted}")));

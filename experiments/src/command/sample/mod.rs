@@ -9,18 +9,19 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use parvi::{Checkpoint, Method, Run, SampleError};
-
-use crate::diagnostics::diagnose;
-use crate::machine::MemoryGauge;
-use crate::options::{
+use parvi_files::particles_csv::column_names;
+use parvi_files::pictures::{History, Subject, look};
+use parvi_files::{
+    AtomicFile, FrameWriter, NumberTable, Outcome, OutputDirectory, ParticleFile, ParticleFormat, npy_is_built,
+};
+use parvi_options::{
     Dimension, MethodName, MethodOptions, OptionError, ParticleCount, StepCount, TargetParameters, TargetSpecification,
     owners, seed,
 };
-use crate::output::particles_csv::column_names;
-use crate::output::{
-    AtomicFile, FrameWriter, NumberTable, OutputDirectory, ParticleFile, ParticleFormat, npy_is_built,
-};
-use crate::pictures::{History, Subject};
+
+use crate::diagnostics::diagnose;
+use crate::dispatch::on_target;
+use crate::machine::MemoryGauge;
 use crate::plots::results::Value;
 use crate::progress::Bar;
 use crate::sampling;
@@ -117,13 +118,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let frames = directory("frames", &arguments.frames)?;
     let plots = directory("plots", &arguments.plots)?;
-    let file = ParticleFile::create(&arguments.out)?;
-    let pool = pool.map(ParticleFile::create).transpose()?;
-    let best = best.map(ParticleFile::create).transpose()?;
+    let file = ParticleFile::create("out", &arguments.out)?;
+    let pool = pool.map(|path| ParticleFile::create("pool", path)).transpose()?;
+    let best = best.map(|path| ParticleFile::create("best", path)).transpose()?;
     let diagnostics = arguments.diagnostics.as_ref().map(AtomicFile::create).transpose()?;
     // Where the checkpoint exists, frames of an earlier process are those of this run.
     let goes_on = arguments.checkpoint.as_ref().is_some_and(|path| path.exists());
-    let frames = frames.map(|directory| FrameWriter::new(directory, arguments.every.get(), names.clone(), goes_on));
+    let frames = frames.map(|directory| {
+        let notice = |text: &str| console::notice(&format!("--frames {text}"));
+        FrameWriter::new(directory, arguments.every.get(), names.clone(), goes_on, notice)
+    });
     let mut watch = Watch {
         progress: Bar::counting("step"),
         frames: frames.transpose()?,
@@ -156,16 +160,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         pairs.push(("frames", count.into()));
     }
     if let (Some(directory), Some(history)) = (&plots, &watch.history) {
-        let checkpoint = arguments.checkpoint.as_ref();
-        let subject = Subject {
-            target: &target,
-            mesh: arguments.options.mesh.as_deref().map(Path::new),
-            method: arguments.method.as_str(),
-            outcome: &outcome,
-            history,
-            untraced: checkpoint.map(|_| "a run with a checkpoint has none"),
-        };
-        pairs.push(("plots", Value::Text(subject.draw(directory)?.join(","))));
+        let names = draw(arguments, &target, &outcome, history, directory)?;
+        pairs.push(("plots", Value::Text(names.join(","))));
     }
     if let Method::Mpm(options) = &method
         && let Some(checkpoint) = &options.checkpoint
@@ -174,6 +170,30 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         checkpoint.remove()?;
     }
     console::print_pairs(&pairs)
+}
+
+/// Draws the pictures into a directory and returns the names of their files.
+fn draw(
+    arguments: &Arguments,
+    target: &TargetSpecification,
+    outcome: &Outcome,
+    history: &History,
+    directory: &OutputDirectory,
+) -> Result<Vec<&'static str>, CommandError> {
+    let mesh = arguments.options.mesh.as_deref().map(Path::new);
+    let known = on_target!(target, target, D => Ok(look::<D>(target.as_ref(), mesh)))?;
+    let checkpoint = arguments.checkpoint.as_ref();
+    let subject = Subject {
+        target: &target.label(),
+        coordinates: &target.coordinate_names(),
+        known: &known.or_pool(outcome.pool.as_ref()),
+        method: arguments.method.as_str(),
+        outcome,
+        history,
+        untraced: checkpoint.map(|_| "a run with a checkpoint has none"),
+        notice: |text| console::notice(&format!("--plots: {text}")),
+    };
+    Ok(subject.draw(directory)?)
 }
 
 /// M, as said or as many as the file of the start has.

@@ -1,12 +1,12 @@
 //! What a run says on standard output and standard error.
 
 use parvi::Certificate;
+use parvi_files::{Outcome, Watched};
+use parvi_options::{Basis, MethodName, Switch, is_among};
 
 use super::Arguments;
 use crate::console::{self, Pair};
 use crate::machine::PEAK_MEMORY_KEY;
-use crate::options::{Basis, MethodName, Switch, is_among};
-use crate::sampling::{Outcome, Watched};
 
 /// What only moves of `mpm`'s particles depend on.
 const OF_MOVES: &str = "basis coarse-start displacement-limit flip-share friction rotation score settling settling-shifts \

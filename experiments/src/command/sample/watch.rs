@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use parvi::{Observer, ParticleView, Progress};
+use parvi_files::FrameWriter;
+use parvi_files::pictures::History;
 
 use crate::CommandError;
-use crate::output::FrameWriter;
-use crate::pictures::History;
 use crate::progress::Bar;
 
 /// Several observers as one.
@@ -23,7 +23,7 @@ impl Watch {
     /// The error of a run, or what stopped it here.
     pub fn reason(&mut self, error: CommandError) -> CommandError {
         let failure = self.frames.as_mut().and_then(FrameWriter::failure);
-        failure.unwrap_or(error)
+        failure.map_or(error, CommandError::from)
     }
 }
 

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use mpm_scenes::Series;
 use mpm_scenes::output::{names, read_series};
+use parvi_files::AtomicFile;
 
 use crate::CommandError;
-use crate::output::AtomicFile;
 use crate::plots::{AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
 /// Columns that share a panel: the group whose file it is in, what their names begin and end with, the rest of a name being the line's label,

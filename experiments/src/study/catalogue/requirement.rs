@@ -1,9 +1,9 @@
 //! What is asked of the defaults on a target.
 
+use parvi_options::TargetSpecification;
 use parvi_targets::target_info;
 
 use crate::CommandError;
-use crate::options::TargetSpecification;
 
 /// A class of targets with the same bound on ED² relative to independent draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Requirement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::Dimension;
+    use parvi_options::Dimension;
 
     #[test]
     fn every_target_has_its_bound() {

@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 
 use parvi::{Annealing, ReferenceVolumes};
+use parvi_options::MaterialTable;
 
 use super::variant::Variant;
-use crate::options::MaterialTable;
 use crate::study::prelude::*;
 
 /// The table of what every case has unless it says otherwise.

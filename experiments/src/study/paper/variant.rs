@@ -1,8 +1,8 @@
 //! How a run of the paper's algorithms departs from the paper.
 
 use parvi::{Coordinates, Guards};
+use parvi_options::words;
 
-use crate::options::words;
 use crate::study::prelude::*;
 
 words! {

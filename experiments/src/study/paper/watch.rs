@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use parvi::{Observer, ParticleView, Progress};
+use parvi_files::Particles;
 
 use crate::CommandError;
-use crate::output::Particles;
 use crate::progress::Bar;
 use crate::study::yardstick::{Errors, Yardstick};
 

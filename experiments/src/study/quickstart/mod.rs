@@ -2,9 +2,10 @@
 
 mod report;
 
+use parvi_files::{ParticleFile, table_file};
+
 use super::prelude::*;
 use super::reference::{MOMENTS, Reference};
-use crate::output::{ParticleFile, table_file};
 
 /// A posterior against its reference, and a two-dimensional target for the eye.
 #[derive(Clone, Debug, Deserialize)]
@@ -94,6 +95,7 @@ impl Study for Quickstart {
         } else {
             return Ok(());
         };
-        ParticleFile::create(file("particles"))?.write(&particles, &[])
+        let own = ParticleFile::create("out", file("particles"))?;
+        Ok(own.write(&particles, &[])?)
     }
 }

@@ -1,10 +1,11 @@
 //! The report of the study `quickstart`, whose figures are drawn from its raw files.
 
+use parvi_files::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL, panels};
+use parvi_files::pictures::{Beside, Known, contours};
+use parvi_files::{particles_csv, table_file};
+
 use super::{PICTURE, POSTERIOR, Quickstart, REFERENCE};
 use crate::dispatch::on_target;
-use crate::output::{particles_csv, table_file};
-use crate::pictures::trace_panels::{KINETIC_ENERGY, POTENTIAL_ENERGY, RESIDUAL, panels};
-use crate::pictures::{Beside, Known, contours};
 use crate::plots::{cloud, corner, histogram};
 use crate::study::prelude::*;
 use crate::study::reference::{MOMENTS, compared};
@@ -23,7 +24,8 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
         page.section("Posterior moments", &[], &axes);
         page.heading("The posterior");
         let known = Known::Draws(particles(REFERENCE)?.to_rows());
-        let beside = Beside::new(&study.posterior.target, &own, &known, "reference");
+        let coordinates = study.posterior.target.coordinate_names();
+        let beside = Beside::new(&coordinates, &own, &known, "reference");
         page.drawing("posterior-corner.svg", beside.draw(corner));
         page.drawing("posterior-marginals.svg", beside.draw(histogram));
     } else {
@@ -34,7 +36,11 @@ pub fn report(study: &Quickstart, rows: &Rows<'_>, directory: &StudyDirectory) -
         page.heading("A target for the eye");
         let (target, particles) = (&study.picture.target, particles(PICTURE)?);
         let known = on_target!(target, target, D => Ok(contours::<D>(target.as_ref(), 161)))?;
-        page.drawing("picture.svg", Beside::new(target, &particles, &known, "").draw(cloud));
+        let coordinates = target.coordinate_names();
+        page.drawing(
+            "picture.svg",
+            Beside::new(&coordinates, &particles, &known, "").draw(cloud),
+        );
     }
     page.heading("The way there");
     let mut runs = Vec::new();

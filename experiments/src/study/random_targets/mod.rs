@@ -5,12 +5,13 @@
 
 mod report;
 
+use parvi_files::Outcome;
 use parvi_targets::Frame;
 
 use super::prelude::*;
 use super::seed_range::SeedRange;
 use crate::dispatch::on_target;
-use crate::sampling::{Outcome, sample_target};
+use crate::sampling::sample_target;
 
 /// All methods on random targets.
 #[derive(Clone, Debug, Deserialize)]

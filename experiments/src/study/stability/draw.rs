@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
+use parvi_options::MethodName::{Mpm, PaperApic, PaperPic};
+use parvi_options::{Correction, Draws, Material, Switch, Transfer};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use crate::options::MethodName::{Mpm, PaperApic, PaperPic};
-use crate::options::{Correction, Draws, Material, Switch, Transfer};
 use crate::study::prelude::*;
 
 /// Factor of the target's frame.
