@@ -1,4 +1,4 @@
-//! The methods, a file for each family: name, options, and how the options of the command become those of the library.
+//! The methods, a file for each family: name, options, and how these options become those of the library.
 //!
 //! A new method is a [`MethodKind`] in a file of its own, and its line of `methods!` below.
 
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{MethodOptions, OptionError};
 
-/// A method as the command knows it.
+/// A method as it is asked for.
 pub struct MethodKind {
     /// The name as typed.
     pub name: &'static str,
