@@ -1,0 +1,3 @@
+//! Options as files and command lines state them. One theme per file.
+
+mod refusals;
