@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use parvi_plot::statistics::DensityGrid;
-use parvi_plot::{Curve, PairDensity, PointCloud, Reference};
+use parvi_plot::{PointCloud, Reference};
 use parvi_targets::CatalogueTarget;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
+use super::quadrature::{Densities, over_domain, quadrature};
 use super::within::Within;
 use crate::Particles;
 
@@ -17,28 +17,15 @@ const DRAWS: usize = 20_000;
 const FEWEST_DRAWS: usize = 1_000;
 /// Proposals for draws within a mesh, at most.
 const PROPOSALS: usize = 400_000;
-/// Nodes per axis of a quadrature, tried one after the other; odd, so that every second one is a grid of its own.
-const NODES: [usize; 2] = [201, 801];
-/// How far the integrals over all and over every second node may differ.
-const TOLERANCE: f64 = 1e-3;
-/// How much of its mean density a marginal may have at an end of its axis: what has more goes on beyond the box, as a posterior that is far from the normal law at its mode.
-const LEFT_AT_ENDS: f64 = 0.01;
 /// Share of the weight that the lightest points of a pool may take with them: they are many, and not to be seen.
 const LEFT_OUT: f64 = 1e-5;
-/// The domain of a quadrature over the box that holds nearly all of the mass.
-const WIDER: f64 = 1.5;
 
 /// The density that particles are compared with.
 pub enum Known {
     /// Exact draws.
     Draws(Vec<Vec<f64>>),
     /// Densities by quadrature.
-    Quadrature {
-        /// One per coordinate.
-        marginals: Vec<Option<Curve>>,
-        /// The joint density in the plane.
-        pairs: Vec<PairDensity>,
-    },
+    Quadrature(Densities),
     /// What the run itself has evaluated, weighed: points and weights.
     Pool(Vec<Vec<f64>>, Vec<f64>),
     /// Nothing, and why.
@@ -51,7 +38,7 @@ impl Known {
         match self {
             Self::Draws(_) => Reference::Draws(PointCloud::equal(draws)),
             Self::Pool(_, weights) => Reference::Draws(PointCloud::weighted(draws, Some(weights))),
-            Self::Quadrature { marginals, pairs } => Reference::Exact { marginals, pairs },
+            Self::Quadrature(Densities { marginals, pairs }) => Reference::Exact { marginals, pairs },
             Self::Nothing(_) => Reference::None,
         }
     }
@@ -91,11 +78,12 @@ pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>
     let (known, fault) = if let Some(path) = mesh {
         let known = Within::<D>::of_file(path).and_then(|mesh| {
             let drawn = || draws(target, |x| mesh.holds(x)).map(Known::Draws);
-            quadrature(target, Some(&mesh)).or_else(drawn)
+            quadrature(target, Some(&mesh)).map(Known::Quadrature).or_else(drawn)
         });
         (known, "or too few of them are within the mesh")
     } else {
         let integrated = if has_box { quadrature(target, None) } else { None };
+        let integrated = integrated.map(Known::Quadrature);
         let known = integrated.or_else(|| draws(target, |_| true).map(Known::Draws));
         let fault = match (D, has_box) {
             (3.., _) => &too_much,
@@ -105,6 +93,11 @@ pub fn look<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Path>
         (known, fault)
     };
     known.unwrap_or_else(|| Known::Nothing(format!("the target has no exact draws, {fault}")))
+}
+
+/// The joint density of a target in the plane over its domain, on so many nodes along each axis.
+pub fn contours<const D: usize>(target: &dyn CatalogueTarget<D>, nodes: usize) -> Known {
+    Known::Quadrature(over_domain(target, nodes))
 }
 
 /// A pool without its lightest points.
@@ -134,110 +127,12 @@ fn draws<const D: usize>(target: &dyn CatalogueTarget<D>, inside: impl Fn(&[f64;
     (draws.len() >= FEWEST_DRAWS).then_some(draws)
 }
 
-/// Marginals, and for d = 2 the joint density, on the first grid that settles, where they fall off towards its ends; over the box around a mesh where there is one, outside of which the density is 0.
-fn quadrature<const D: usize>(target: &dyn CatalogueTarget<D>, mesh: Option<&Within<D>>) -> Option<Known> {
-    if D > 2 {
-        return None;
-    }
-    let range = |axis: usize| {
-        if let Some(mesh) = mesh {
-            return mesh.range(axis);
-        }
-        let [low, high] = target.domain().get(axis).copied().unwrap_or([0.0, 1.0]);
-        let (middle, half) = (0.5 * (low + high), 0.5 * WIDER * (high - low));
-        (middle - half, middle + half)
-    };
-    let mut grids = NODES.iter().map(|&nodes| {
-        let rows = if D == 1 { 1 } else { nodes };
-        density(target, [range(0), range(1)], (nodes, rows), |x| {
-            mesh.is_none_or(|mesh| mesh.holds(x))
-        })
-    });
-    let grid = grids.find(|grid| grid.settles(TOLERANCE))?;
-    let marginal = |axis: usize| grid.marginal(axis).map(|(x, y)| Curve { x, y });
-    let marginals: Vec<_> = (0..D).map(marginal).collect();
-    let falls_off = |curve: &Curve| {
-        let mean = curve.y.iter().sum::<f64>() / curve.y.len() as f64;
-        let ends = curve.y.first().into_iter().chain(curve.y.last());
-        ends.copied().fold(0.0, f64::max) < LEFT_AT_ENDS * mean
-    };
-    if mesh.is_none() && !marginals.iter().flatten().all(falls_off) {
-        return None;
-    }
-    Some(Known::Quadrature {
-        marginals,
-        pairs: if D == 2 { vec![in_the_plane(grid)] } else { Vec::new() },
-    })
-}
-
-/// The joint density of a target in the plane over its domain, on so many nodes along each axis.
-pub fn contours<const D: usize>(target: &dyn CatalogueTarget<D>, nodes: usize) -> Known {
-    let domain = target.domain();
-    let range = |axis: usize| domain.get(axis).map_or((-1.0, 1.0), |[low, high]| (*low, *high));
-    let grid = density(target, [range(0), range(1)], (nodes, nodes), |_| true);
-    Known::Quadrature {
-        marginals: Vec::new(),
-        pairs: vec![in_the_plane(grid)],
-    }
-}
-
-fn in_the_plane(grid: DensityGrid) -> PairDensity {
-    PairDensity {
-        horizontal: 0,
-        vertical: 1,
-        grid,
-    }
-}
-
-/// A density on a grid over the first two coordinates, its largest value 1 and 0 where a point is not inside.
-fn density<const D: usize>(
-    target: &dyn CatalogueTarget<D>,
-    [x, y]: [(f64, f64); 2],
-    nodes: (usize, usize),
-    inside: impl Fn(&[f64; D]) -> bool,
-) -> DensityGrid {
-    let mut grid = DensityGrid::evaluate(x, y, nodes, |x, y| {
-        let mut point = [0.0; D];
-        for (coordinate, value) in point.iter_mut().zip([x, y]) {
-            *coordinate = value;
-        }
-        if inside(&point) {
-            target.log_density(&point)
-        } else {
-            f64::NEG_INFINITY
-        }
-    });
-    grid.exponentiate();
-    grid
-}
-
 #[cfg(test)]
 mod tests {
-    use parvi_targets::{Gaussian, LogisticRegression, RegressionData, Ring};
-    use statrs::distribution::{Continuous, Normal};
+    #[cfg(feature = "mesh")]
+    use parvi_targets::Gaussian;
 
     use super::*;
-
-    #[test]
-    fn quadrature_gives_the_marginals_of_a_gaussian() {
-        let target = Gaussian::<2>::autoregressive(0.8).unwrap();
-        let Some(Known::Quadrature { marginals, pairs }) = quadrature(&target, None) else {
-            panic!("a quadrature that settles");
-        };
-        let normal = Normal::new(0.0, 1.0).unwrap();
-        for curve in marginals {
-            let curve = curve.unwrap();
-            for (x, y) in curve.x.iter().zip(curve.y) {
-                assert!((y - normal.pdf(*x)).abs() < 1e-4, "{x}: {y}");
-            }
-        }
-        assert_eq!(pairs.len(), 1);
-        let line = quadrature(&Gaussian::<1>::standard(), None);
-        assert!(
-            matches!(line, Some(Known::Quadrature { marginals, pairs }) if marginals.len() == 1 && pairs.is_empty())
-        );
-        assert!(quadrature(&Gaussian::<3>::standard(), None).is_none());
-    }
 
     /// Outside of a disk there is nothing, and marginals are those of what is left of the Gaussian.
     #[cfg(feature = "mesh")]
@@ -260,7 +155,7 @@ mod tests {
         std::fs::write(&file, write_msh(&disk, MshFormat::Text41)).unwrap();
         let mesh = Within::<2>::of_file(&file).unwrap();
         let target = Gaussian::<2>::standard();
-        let Known::Quadrature { marginals, pairs } = look::<2>(&target, Some(&file)) else {
+        let Known::Quadrature(Densities { marginals, pairs }) = look::<2>(&target, Some(&file)) else {
             panic!("a quadrature that settles");
         };
         let grid = &pairs[0].grid;
@@ -293,23 +188,5 @@ mod tests {
         assert_eq!(points[0], [4.0]);
         let draws = Known::Draws(Vec::new()).or_pool(Some(&pool));
         assert_eq!(draws.label(), "target (exact draws)");
-    }
-
-    /// Under a wide prior the posterior of separated responses is nothing like the normal law at its mode, which the box is made of.
-    #[test]
-    fn a_density_that_goes_on_beyond_the_box_is_not_integrated() {
-        let rows: Vec<(bool, Vec<f64>)> = (-20..20).map(|i| (i >= 0, vec![f64::from(i) + 0.5])).collect();
-        let of_prior = |deviation: f64| {
-            let data = RegressionData::new("separated", &["x"], &rows).unwrap();
-            LogisticRegression::<2>::with_prior("logistic", data, deviation).unwrap()
-        };
-        assert!(quadrature(&of_prior(1e4), None).is_none());
-        assert!(quadrature(&of_prior(1.0), None).is_some());
-    }
-
-    #[test]
-    fn a_density_that_no_grid_resolves_is_not_integrated() {
-        assert!(quadrature(&Ring::new(2.0, 1e-4).unwrap(), None).is_none());
-        assert!(quadrature(&Ring::new(2.0, 0.2).unwrap(), None).is_some());
     }
 }

@@ -2,6 +2,7 @@
 
 mod history;
 mod known;
+mod quadrature;
 pub mod trace_panels;
 #[cfg(feature = "mesh")]
 mod within;
@@ -16,6 +17,7 @@ use parvi_plot::{
 
 pub use self::history::{History, Moment};
 pub use self::known::{Known, contours, look};
+pub use self::quadrature::Densities;
 use crate::outcome::{Outcome, SurveyPoint, Watched};
 use crate::{AtomicFile, FileError, OutputDirectory, Particles};
 

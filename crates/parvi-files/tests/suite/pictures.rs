@@ -18,7 +18,7 @@ fn a_run_with_a_trace_in_the_plane_has_all_pictures_but_that_of_a_survey() {
     let (target, mut history) = (Gaussian::<2>::standard(), History::default());
     let samples = options.sample(&target, &Frame::identity(), &Run::new(64, 0), &mut history);
     let known = look::<2>(&target, None);
-    assert!(matches!(known, Known::Quadrature { .. }));
+    assert!(matches!(known, Known::Quadrature(_)));
     let names = Subject {
         target: "gaussian",
         coordinates: &["x_{1}".to_owned(), "x_{2}".to_owned()],
