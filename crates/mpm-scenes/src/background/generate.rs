@@ -15,6 +15,7 @@ use rand::{RngExt, SeedableRng};
 use crate::SceneFault;
 use crate::rotation::Rotation;
 use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
+use crate::shape::{Polygon, Shape};
 
 /// The group of all facets of the boundary, unless a file has one of this name.
 const BOUNDARY: &str = "boundary";
@@ -31,6 +32,7 @@ pub(super) fn inner<const D: usize>(
             (named, Some(contents))
         }
         (None, Some(shape)) => {
+            check_holes(shape)?;
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
             let mesh = generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?;
             let facets = rims(shape, &mesh);
@@ -54,6 +56,32 @@ pub(super) fn inner<const D: usize>(
         )
     })?;
     Ok((NamedMesh { mesh, facets }, contents))
+}
+
+/// Holes of polygons are inside of the outline, and of no other hole: elsewhere they would be islands.
+fn check_holes(shape: &MeshShapeTable) -> Result<(), SceneFault> {
+    let MeshShapeTable::Polygon { corners, holes, .. } = shape else {
+        return Ok(());
+    };
+    let is_inside = |hole: &[[f64; 2]], corners: &[[f64; 2]]| {
+        let polygon = Polygon {
+            corners: corners.to_vec(),
+        };
+        hole.iter().all(|corner| Shape::<2>::distance(&polygon, corner) <= 0.0)
+    };
+    for (number, hole) in holes.iter().enumerate() {
+        let others = holes.iter().enumerate().filter(|(other, _)| *other != number);
+        let is_nested = others.into_iter().any(|(_, other)| is_inside(hole, other));
+        if is_nested || !is_inside(hole, corners) {
+            let field = format!("mesh.generate.holes[{number}]");
+            return Err(SceneFault::value(
+                field,
+                hole,
+                "inside of the corners and of no other hole",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The groups that the boundaries of a ring are.
