@@ -143,7 +143,7 @@ fn of_parabola_over_parabola(width: f64, seed: u64) -> (Rosenbrock<3>, Pool<3>, 
 }
 
 /// The standard deviation of x₃ by the pool, and its stated error, over the truth.
-fn of_last((target, pool): (&Rosenbrock<3>, &Pool<3>)) -> (f64, f64) {
+fn of_last(target: &Rosenbrock<3>, pool: &Pool<3>) -> (f64, f64) {
     let truth = target.moments().expect("a closed form").covariance.0[2][2].sqrt();
     let (deviation, error) = pool.marginals()[2].deviation();
     (deviation / truth, error / truth)
@@ -154,7 +154,7 @@ fn of_last((target, pool): (&Rosenbrock<3>, &Pool<3>)) -> (f64, f64) {
 fn a_tail_that_hangs_on_few_points_is_followed() {
     for seed in [8, 9] {
         let (target, pool, _) = of_parabola_over_parabola(0.3, seed);
-        let (deviation, _) = of_last((&target, &pool));
+        let (deviation, _) = of_last(&target, &pool);
         assert!((deviation - 1.0).abs() < 0.05, "{seed}: {deviation}");
     }
 }
@@ -164,7 +164,7 @@ fn a_tail_that_hangs_on_few_points_is_followed() {
 fn a_tail_of_which_few_points_are_known_is_not_vouched_for() {
     for seed in [12, 17] {
         let (target, pool, doubt) = of_parabola_over_parabola(0.05, seed);
-        let (deviation, stated) = of_last((&target, &pool));
+        let (deviation, stated) = of_last(&target, &pool);
         assert!(deviation < 0.9 && stated < 0.04, "{seed}: {deviation} ± {stated}");
         let doubt = doubt.expect("a doubt").to_string();
         assert!(doubt.contains("x3 hangs on few points"), "{seed}: {doubt}");
