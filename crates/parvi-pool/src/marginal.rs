@@ -4,6 +4,7 @@ use mpm_tensor::power_of_two;
 
 use crate::estimate::Estimate;
 use crate::pool::Pool;
+use crate::referee::Objection;
 
 /// Share of the effective size that carries a second moment, at least: where proposals aim at p √r at the most, and where they aim at p r, since one was less, of which of a normal law three times as much as of independent draws does.
 const LEAST_CARRIED: f64 = 1.0 / 16.0;
@@ -47,17 +48,17 @@ impl<const D: usize> Pool<D> {
         })
     }
 
-    /// The axis, from 1, whose second moment the least share of the effective size carries, and that share, if it is too little. Of independent draws it is one over the kurtosis, 1/3 of normal ones: where it
+    /// That the least share of the effective size that carries a second moment is too little, if it is. Of independent draws it is one over the kurtosis, 1/3 of normal ones: where it
     /// is less than 1/16, or than 3/16 once it was, there may be a longer tail than was met, of which no standard error says anything.
-    pub(crate) fn hanging(&self) -> Option<(usize, f64)> {
+    pub(crate) fn hanging(&self, marginals: &[Marginal; D]) -> Option<Objection> {
         let size = self.effective_size();
-        let shares = (1..).zip(self.marginals().map(|marginal| marginal.variance.carriers / size));
-        let least = shares.min_by(|(_, one), (_, other)| one.total_cmp(other));
+        let shares = (1..).zip(marginals.iter().map(|marginal| marginal.variance.carriers / size));
+        let (axis, share) = shares.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
         let enough = if self.had_hung {
             LEAST_CARRIED_AFTER
         } else {
             LEAST_CARRIED
         };
-        least.filter(|(_, share)| *share < enough)
+        (share < enough).then_some(Objection::Hanging { axis, share })
     }
 }

@@ -12,6 +12,7 @@ use crate::density::Density;
 use crate::estimate::Estimate;
 use crate::fold::{Fold, joined};
 use crate::freeze::Frozen;
+use crate::marginal::Marginal;
 use crate::measure::Measure;
 use crate::options::{Plan, Round};
 use crate::referee::{Objection, Verdict};
@@ -151,18 +152,23 @@ impl<const D: usize> Pool<D> {
 
     /// The first reason, if any, not to rely on these weights for so many particles.
     pub fn objection(&self, particles: usize) -> Option<Objection> {
+        self.objection_beside_moments(particles)
+            .or_else(|| self.hanging(&self.marginals()))
+    }
+
+    /// The same with the [`marginals`](Self::marginals), where they are known already.
+    pub fn objection_given(&self, particles: usize, marginals: &[Marginal; D]) -> Option<Objection> {
+        self.objection_beside_moments(particles)
+            .or_else(|| self.hanging(marginals))
+    }
+
+    /// The first one that asks for no moments.
+    fn objection_beside_moments(&self, particles: usize) -> Option<Objection> {
         let variance = self.measure.variance * particles as f64;
         let objection = self.verdict.objection(self.log_evidence_error, variance);
         let inconsistent = (self.inconsistency > LARGEST_INCONSISTENCY).then_some(self.inconsistency);
         let searching = (self.quiet < QUIET).then_some(Objection::Searching(self.quiet));
-        let hanging = || {
-            let (axis, share) = self.hanging()?;
-            Some(Objection::Hanging { axis, share })
-        };
-        objection
-            .or(inconsistent.map(Objection::Inconsistent))
-            .or(searching)
-            .or_else(hanging)
+        objection.or(inconsistent.map(Objection::Inconsistent)).or(searching)
     }
 
     /// What searches can have overlooked: the share v of their law's draws from which a piece is seen, such that with probability 0.05 none of the `n` that met

@@ -16,8 +16,9 @@ impl Certificate {
         (drift, kinetic_energy): (f64, f64),
     ) -> Self {
         let rate = (particles as f64).sqrt();
-        let moments = moments(pool, samples, rate);
-        let doubt_of_pool = || match pool.objection(particles) {
+        let marginals = pool.marginals();
+        let moments = moments(&marginals, samples, rate);
+        let doubt_of_pool = || match pool.objection_given(particles, &marginals) {
             Some(Objection::HeavyTail(pareto_k)) => Some(Doubt::HeavyTail { pareto_k }),
             Some(Objection::Evidence(error)) => Some(Doubt::Evidence { error }),
             Some(Objection::Noise(variance)) => Some(Doubt::Noise { variance }),
@@ -42,9 +43,9 @@ impl Certificate {
 }
 
 /// The particles' moments beside those of the pool, what these leave unexplained times `rate`.
-fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> Vec<MomentEstimate> {
+fn moments<const D: usize>(marginals: &[Marginal; D], samples: &Samples<D>, rate: f64) -> Vec<MomentEstimate> {
     let own = Extent::of_weighted(&samples.positions, samples.weights.as_deref());
-    let of_axis = |(a, marginal): (usize, Marginal)| {
+    let of_axis = |(a, marginal): (usize, &Marginal)| {
         let (deviation, deviation_error) = marginal.deviation();
         let moment = |value: f64, estimate: f64, error: f64| EstimatedMoment {
             value,
@@ -57,5 +58,5 @@ fn moments<const D: usize>(pool: &Pool<D>, samples: &Samples<D>, rate: f64) -> V
             standard_deviation: moment(own.deviation[a], deviation, deviation_error),
         }
     };
-    pool.marginals().into_iter().enumerate().map(of_axis).collect()
+    marginals.iter().enumerate().map(of_axis).collect()
 }
