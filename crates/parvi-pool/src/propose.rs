@@ -1,5 +1,7 @@
 //! The next proposal: Student kernels fitted to a sample, as many and as wide as points that did not shape them like best.
 
+use std::cmp::Ordering;
+
 use mpm_tensor::{Matrix, vector};
 use parvi_targets::normal_quantile;
 use rand::RngExt;
@@ -87,7 +89,7 @@ fn defended<const D: usize>(sample: &Sample<D>, fitted: &Mixture<D>, width: f64)
 }
 
 /// The form under which points set aside come out best, by the least Σ w (p/q)^{1/2}: between the likelihood, which cares little for
-/// points that q forgets, and the variance of the weights, which hangs on a few of them. As many kernels as the last time, half or twice as many; any number
+/// points that q forgets, and the variance of the weights, which hangs on a few of them; of numbers of kernels that do as well the least. As many kernels as the last time, half or twice as many; any number
 /// the first time, and one at every place of known curvature where scores sharpen them.
 pub(super) fn best_form<const D: usize>(
     sample: &Sample<D>,
@@ -108,40 +110,118 @@ pub(super) fn best_form<const D: usize>(
             .collect(),
     };
     counts.dedup();
-    let (mut least, mut form) = (
-        f64::INFINITY,
-        Form {
-            kernels: counts[0],
-            width: 1.0,
-        },
-    );
+    // Of every number of kernels the width that comes out best.
+    let mut tried: Vec<Trial> = Vec::new();
     for kernels in counts {
         let Some(fitted) = fitted(&training, (2 * kernels).div_ceil(3), rng) else {
             continue;
         };
-        for width in WIDTHS {
-            let Some(proposal) = defended(&training, &fitted, width) else {
-                continue;
-            };
-            let score = misfit(&check, proposal.densities(&groups).as_flattened());
-            if score < least {
-                (least, form) = (score, Form { kernels, width });
-            }
-        }
+        let trial = |width| {
+            let proposal = defended(&training, &fitted, width)?;
+            Trial::of(
+                Form { kernels, width },
+                &check,
+                proposal.densities(&groups).as_flattened(),
+            )
+        };
+        tried.extend(WIDTHS.into_iter().filter_map(trial).min_by(Trial::compare));
     }
-    form
+    let best = tried.iter().min_by(|one, other| one.compare(other));
+    let chosen = best.and_then(|best| tried.iter().find(|trial| trial.is_as_good_as(best)));
+    let fallback = Form { kernels: 1, width: 1.0 };
+    chosen.map_or(fallback, |trial| trial.form)
 }
 
-/// log Σ w (p/q)^{1/2} − log Σ w, up to a constant of p.
-fn misfit<const D: usize>(sample: &Sample<D>, densities: &[f64]) -> f64 {
-    let logs = sample.logs.iter().zip(densities);
-    let logs: Vec<f64> = logs.map(|(p, q)| 0.5 * (p - q.max(f64::MIN_POSITIVE).ln())).collect();
-    let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let sum: f64 = sample.weights.iter().zip(&logs).map(|(w, l)| w * (l - top).exp()).sum();
-    top + (sum / sample.weights.iter().sum::<f64>()).ln()
+/// How a proposal of this form fits points set aside.
+struct Trial {
+    form: Form,
+    /// log Σ w (p/q)^{1/2}, up to a constant of w and p.
+    misfit: f64,
+    /// The share of every point in that sum.
+    shares: Vec<f64>,
+}
+
+impl Trial {
+    /// `None` where the sum is no number.
+    fn of<const D: usize>(form: Form, sample: &Sample<D>, densities: &[f64]) -> Option<Self> {
+        let logs = sample.logs.iter().zip(densities);
+        let logs: Vec<f64> = logs.map(|(p, q)| 0.5 * (p - q.max(f64::MIN_POSITIVE).ln())).collect();
+        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let terms = sample.weights.iter().zip(&logs);
+        let mut shares: Vec<f64> = terms.map(|(w, l)| w * (l - top).exp()).collect();
+        let sum: f64 = shares.iter().sum();
+        shares.iter_mut().for_each(|share| *share /= sum);
+        let misfit = top + sum.ln();
+        misfit.is_finite().then_some(Self { form, misfit, shares })
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        self.misfit.total_cmp(&other.misfit)
+    }
+
+    /// Whether it fits no worse than the best one by more than one standard error of the difference, (Σ (s − s')²)^{1/2} with the shares s of the points:
+    /// the rule by which the simplest of equally good models is taken (Breiman, Friedman, Olshen and Stone 1984, §3.4.3).
+    fn is_as_good_as(&self, best: &Self) -> bool {
+        let pairs = self.shares.iter().zip(&best.shares);
+        let square: f64 = pairs.map(|(one, other)| (one - other).powi(2)).sum();
+        self.misfit - best.misfit <= square.sqrt()
+    }
 }
 
 /// The proposal of this form.
 pub(super) fn proposal<const D: usize>(sample: &Sample<D>, form: Form, rng: &mut ChaCha8Rng) -> Option<Mixture<D>> {
     defended(sample, &fitted(sample, form.kernels, rng)?, form.width)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::*;
+
+    /// Normal points of equal weight, bent by `bend` along the last axis, and their log density.
+    fn sample(bend: f64, seed: u64) -> Sample<2> {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut sample = Sample::default();
+        for _ in 0..3000 {
+            let z: [f64; 2] = std::array::from_fn(|_| normal_quantile(rng.random_range(1e-9..1.0)));
+            sample.points.push([z[0], z[1] + bend * z[0] * z[0]]);
+            sample.weights.push(1.0);
+            sample.logs.push(-0.5 * vector::dot(&z, &z));
+            sample.precisions.push(Some(Matrix::ZERO));
+        }
+        sample
+    }
+
+    fn kernels(bend: f64) -> Vec<usize> {
+        let form = |seed| best_form(&sample(bend, seed), None, false, &mut ChaCha8Rng::seed_from_u64(seed));
+        (0..5).map(|seed| form(seed).kernels).collect()
+    }
+
+    #[test]
+    fn a_normal_law_needs_few_kernels() {
+        let kernels = kernels(0.0);
+        assert!(kernels.iter().all(|&count| count <= 9), "{kernels:?}");
+    }
+
+    #[test]
+    fn a_bent_ridge_needs_many_kernels() {
+        let kernels = kernels(3.0);
+        assert!(kernels.iter().all(|&count| count >= 9), "{kernels:?}");
+    }
+
+    /// The difference of two misfits has an error of its own; what counts is not how large the shares are but how they differ.
+    #[test]
+    fn what_differs_by_less_than_its_error_is_as_good() {
+        let trial = |misfit, shares: [f64; 3]| Trial {
+            form: Form { kernels: 1, width: 1.0 },
+            misfit,
+            shares: shares.to_vec(),
+        };
+        let best = trial(0.0, [0.2, 0.3, 0.5]);
+        let error = (0.1_f64.powi(2) + 0.1_f64.powi(2)).sqrt();
+        assert!(trial(0.99 * error, [0.3, 0.3, 0.4]).is_as_good_as(&best));
+        assert!(!trial(1.01 * error, [0.3, 0.3, 0.4]).is_as_good_as(&best));
+        assert!(best.is_as_good_as(&best));
+    }
 }
