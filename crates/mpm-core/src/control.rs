@@ -14,7 +14,8 @@ pub struct StepControl {
     /// the weights of a basis with w ≥ 0 average them, so the limit holds for the particles. What is shortened loses its momentum: a guard for sampling, and for
     /// mechanics one that must not act ([`StepReport::displacement`] says whether it did).
     pub displacement: f64,
-    /// Friction γ ≥ 0, finite: velocities are multiplied by e^{−γΔt}.
+    /// Friction γ ≥ 0, finite: v_i ← e^{−γΔt} (v_i + Δt f_i / m_i), with all forces f_i, those of contact, friction and [`NodeForces`](crate::NodeForces) among them. What is at
+    /// rest is in balance, however large γΔt; what boundaries prescribe is not damped.
     pub friction: f64,
 }
 

@@ -9,6 +9,9 @@ use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate, StressWork};
 /// boundary give impulses J_i, each in its turn, up to v_iⁿ⁺¹. All of them act over the same step, so that the work of each is Σ J_i · (v_iⁿ + v_iⁿ⁺¹) / 2: together they are what K gains,
 /// and what neither moves nor has moved, as a body that sticks, does no work.
 ///
+/// With damping it is v_iⁿ⁺¹ = e^(−γΔt) (v_iⁿ + Σ J_i / m_i), whatever the J_i are of: what changes velocities after they have been damped gives e^(−γΔt) J_i. Works are those of J_i
+/// themselves, and the impulse of damping is −(e^(γΔt) − 1) m_i v_iⁿ⁺¹, which is none at rest.
+///
 /// With it what every other part takes follows. Particles have gained less than the nodes have altogether: the transfer takes the difference, on both its ways. What forces have given is
 /// the energy that strain, gravity and other potentials have lost, but for the error of the time integration.
 ///
@@ -17,7 +20,7 @@ use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate, StressWork};
 pub struct EnergyBudget {
     /// The work of stresses and body forces, less what the limit of the [`displacement`](crate::StepControl::displacement) takes.
     pub forces: f64,
-    /// The work of damping at the rate [`friction`](crate::StepControl::friction).
+    /// The work of damping at the rate [`friction`](crate::StepControl::friction), of everything that acts: −Σ (e^(γΔt) − 1) m_i v_iⁿ⁺¹ · (v_iⁿ + v_iⁿ⁺¹) / 2.
     pub damping: f64,
     /// The work of a [`ContactPotential`](crate::ContactPotential).
     pub contact: f64,
@@ -50,7 +53,7 @@ impl EnergyBudget {
         damping: f64,
         deforms_last: bool,
     ) {
-        let [brought, advanced, pressed, slowed, last] = stages else {
+        let [brought, _, _, _, last] = stages else {
             return;
         };
         let sum_of = |impulse: &dyn Fn(usize) -> [f64; D], way: &dyn Fn(usize) -> [f64; D]| -> f64 {
@@ -60,18 +63,17 @@ impl EnergyBudget {
         let work = |from: &[[f64; D]], to: &[[f64; D]]| {
             sum_of(&|i| subtract(&to[i], &from[i]), &|i| add(&brought[i], &last[i]))
         };
-        // v* = e^(−γΔt) (vⁿ + J/m).
-        let undamped: Vec<[f64; D]> = advanced
-            .iter()
-            .map(|v| scale(v, 1.0 / damping.max(f64::MIN_POSITIVE)))
-            .collect();
-        self.forces += work(brought, &undamped);
-        self.damping += work(&undamped, advanced);
-        self.contact += work(advanced, pressed);
-        self.friction += work(pressed, slowed);
-        self.boundary += work(slowed, last);
+        // Before damping, e^(γΔt) v.
+        let rise = 1.0 / damping.max(f64::MIN_POSITIVE);
+        let undamped = |stage: usize| -> Vec<[f64; D]> { stages[stage].iter().map(|v| scale(v, rise)).collect() };
+        let [forced, pressed, slowed, bounded] = [1, 2, 3, 4].map(undamped);
+        self.forces += work(brought, &forced);
+        self.contact += work(&forced, &pressed);
+        self.friction += work(&pressed, &slowed);
+        self.boundary += work(&slowed, &bounded);
+        self.damping += work(&bounded, last);
         if deforms_last {
-            self.time_integration += sum_of(&|i| subtract(&undamped[i], &brought[i]), &|i| {
+            self.time_integration += sum_of(&|i| subtract(&forced[i], &brought[i]), &|i| {
                 subtract(&last[i], &brought[i])
             });
         }

@@ -49,11 +49,11 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         )?;
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
         self.record(&mut stages);
-        self.press_on_surfaces(dt, speed * dt)?;
+        self.press_on_surfaces((dt, damping), speed * dt)?;
         self.record(&mut stages);
         self.slow_by_friction();
         self.record(&mut stages);
-        self.constrain_grid(dt, true);
+        self.constrain_grid(dt, dt * damping);
         self.check_nodes()?;
         self.record(&mut stages);
         self.account(&stages, damping);
@@ -152,12 +152,20 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         Ok(square.sqrt())
     }
 
-    /// The contact that is solved at the nodes, and what presses on them altogether if there is friction. No particle goes farther than `reach`.
-    fn press_on_surfaces(&mut self, dt: f64, reach: f64) -> Result<(), MpmError> {
+    /// The contact that is solved at the nodes, and what presses on them altogether if there is friction, both damped like all forces. No particle goes farther than `reach`.
+    fn press_on_surfaces(&mut self, (dt, damping): (f64, f64), reach: f64) -> Result<(), MpmError> {
         let (particles, impulses) = (&self.particles, &mut self.normal_impulses);
         if let Some(friction) = self.body_force.friction() {
             let (positions, masses) = (&particles.positions, &particles.masses);
-            sum_up_impulses(&self.basis, positions, masses, friction.normal_forces, dt, impulses);
+            let force_step = dt * damping;
+            sum_up_impulses(
+                &self.basis,
+                positions,
+                masses,
+                friction.normal_forces,
+                force_step,
+                impulses,
+            );
         }
         if let Some(potential) = self.body_force.contact() {
             let sites = sites(particles, self.time);
@@ -169,7 +177,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             let nodes = self.nodes.as_mut_slice();
             let acted = self
                 .contact
-                .act(&self.basis, potential, &sites, (dt, reach), nodes, &mut add);
+                .act(&self.basis, potential, &sites, (dt, damping, reach), nodes, &mut add);
             acted.map_err(|error| particles.name(error))?;
         }
         Ok(())
@@ -182,8 +190,8 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         }
     }
 
-    /// Velocities of the nodes that walls and obstacles touch.
-    pub(crate) fn constrain_grid(&mut self, dt: f64, forces: bool) {
+    /// Velocities of the nodes that walls and obstacles touch, and [`GridMotion::force_step`] of forces at nodes.
+    pub(crate) fn constrain_grid(&mut self, dt: f64, force_step: f64) {
         if C::PRESENT {
             self.basis.node_positions(&mut self.node_positions);
             let (medium, particles) = (&self.medium, &self.particles);
@@ -201,7 +209,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
                 },
                 time: self.time,
                 time_step: dt,
-                forces,
+                force_step,
             };
             self.boundary.constrain(&self.basis, &motion, self.nodes.as_mut_slice());
         }

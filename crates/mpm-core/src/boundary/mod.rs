@@ -37,8 +37,8 @@ pub struct GridMotion<'a, const D: usize> {
     pub time: f64,
     /// Δt.
     pub time_step: f64,
-    /// Whether forces act in this pass; velocities may also be constrained without.
-    pub forces: bool,
+    /// The time over which forces act in this pass, Δt e^(−γΔt) like those of stresses; 0: velocities are constrained without them.
+    pub force_step: f64,
 }
 
 /// Conditions on the velocities of the nodes.

@@ -3,8 +3,8 @@
 use super::GridMotion;
 use crate::{Basis, GridNode};
 
-/// Forces f_i at nodes, by their positions: v_i ← v_i + s Δt f_i / m_i, where s = min(t / `ramp`, 1). Nodes that no particle touches, or without mass, have nothing
-/// to move.
+/// Forces f_i at nodes, by their positions: v_i ← v_i + s Δt' f_i / m_i, where s = min(t / `ramp`, 1) and Δt' is [`GridMotion::force_step`]. Nodes that
+/// no particle touches, or without mass, have nothing to move.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NodeForces<const D: usize> {
     /// Position and force of every node.
@@ -15,7 +15,7 @@ pub struct NodeForces<const D: usize> {
 
 impl<const D: usize> NodeForces<D> {
     pub(super) fn act<B: Basis<D>, N: GridNode<D>>(&self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]) {
-        if !motion.forces {
+        if motion.force_step == 0.0 {
             return;
         }
         let share = if motion.time < self.ramp {
@@ -32,7 +32,7 @@ impl<const D: usize> NodeForces<D> {
             };
             let mass = node.mass();
             if mass.is_normal() {
-                let scale = share * motion.time_step / mass;
+                let scale = share * motion.force_step / mass;
                 for (v, f) in node.velocity_mut().iter_mut().zip(force) {
                     *v += scale * f;
                 }

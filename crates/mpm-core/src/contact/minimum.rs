@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-11;
 
 /// φ(u) = `inertia` |u − free|² / 2 + Σ_p w_p A_p b(g_p + n_p · u).
 pub(super) struct NodeProblem<'a, const D: usize> {
-    /// m / Δt² > 0.
+    /// m / e^(−γΔt) Δt² > 0.
     pub inertia: f64,
     /// Δt v*.
     pub free: [f64; D],

@@ -23,9 +23,9 @@ pub struct ContactPoint<const D: usize> {
 /// A convex potential b(g) per area that keeps particles off something rigid, without bound towards g = 0. A step takes it implicitly, at the nodes, once all forces have acted: the
 /// displacement u_i = Δt v_i of every node is the minimum of
 ///
-/// m_i |u_i − Δt v_i*|² / 2Δt² + Σ_p w_ip A_p b(g_p + n_p · u_i),
+/// m_i |u_i − Δt v_i*|² / 2 e^(−γΔt) Δt² + Σ_p w_ip A_p b(g_p + n_p · u_i),
 ///
-/// v_i* the velocity without the contact. As b is convex, Σ_i w_ip b(g_p + n_p · u_i) ≥ b(g_p + n_p · Σ_i w_ip u_i): where weights are not negative, no particle comes to a plane surface, and
+/// v_i* the velocity without the contact, γ the rate of [damping](crate::StepControl::friction), which acts on the contact's impulses as on all others: v_i = v_i* + e^(−γΔt) Δt f_i / m_i. As b is convex, Σ_i w_ip b(g_p + n_p · u_i) ≥ b(g_p + n_p · Σ_i w_ip u_i): where weights are not negative, no particle comes to a plane surface, and
 /// kinetic energy and potential together never grow, however long the step. What a step dissipates is at least Σ m_i |v_i − v_i*|² / 2, as by backward Euler; it is small where Δt is
 /// small beside the time of the contact's spring. Bodies that rest are pressed on by A_p p(g_p), whatever the step.
 /// The price of nodes that are solved alone: where they would move against each other and no particle with them, each is held by itself, so that a layer of a cell along the surface is stiffer than it

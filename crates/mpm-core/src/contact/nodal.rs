@@ -40,7 +40,8 @@ impl<const D: usize> Default for NodalContact<D> {
 const PIECE: usize = 1 << 6;
 
 impl<const D: usize> NodalContact<D> {
-    /// Change the velocities of the nodes as [`ContactPotential`] says. No particle goes farther than `reach`. `given(node, m_i Δv_i)` is told the impulse of every node that gets some.
+    /// Change the velocities of the nodes as [`ContactPotential`] says, with e^(−γΔt) = `damping`. No particle goes farther than `reach`. `given(node, m_i Δv_i)` is told the impulse of
+    /// every node that gets some.
     /// Nodes of no mass and of negative mass, which negative weights may leave, are left alone.
     ///
     /// # Errors
@@ -50,7 +51,7 @@ impl<const D: usize> NodalContact<D> {
         basis: &B,
         potential: &dyn ContactPotential<D>,
         sites: &Sites<D>,
-        (time_step, reach): (f64, f64),
+        (time_step, damping, reach): (f64, f64, f64),
         nodes: &mut [N],
         given: &mut dyn FnMut(usize, [f64; D]),
     ) -> Result<(), MpmError> {
@@ -70,7 +71,7 @@ impl<const D: usize> NodalContact<D> {
         let free = self.touched.iter().map(|&node| nodes[node as usize]);
         let free: Vec<(f64, [f64; D])> = free.map(|node| (node.mass(), *node.velocity())).collect();
         let solved = mpm_parallel::collect(free.len(), PIECE, &|k| {
-            self.velocity(self.touched[k] as usize, &free[k], time_step, potential)
+            self.velocity(self.touched[k] as usize, &free[k], (time_step, damping), potential)
         });
         for ((&node, (mass, before)), after) in self.touched.iter().zip(&free).zip(solved) {
             *nodes[node as usize].velocity_mut() = after;
@@ -134,7 +135,7 @@ impl<const D: usize> NodalContact<D> {
         &self,
         node: usize,
         (mass, velocity): &(f64, [f64; D]),
-        time_step: f64,
+        (time_step, damping): (f64, f64),
         potential: &dyn ContactPotential<D>,
     ) -> [f64; D] {
         let pairs = self.order[self.starts[node] as usize..self.starts[node + 1] as usize].iter();
@@ -144,7 +145,7 @@ impl<const D: usize> NodalContact<D> {
         });
         let shares: Vec<Share<D>> = shares.collect();
         let problem = NodeProblem {
-            inertia: mass / (time_step * time_step),
+            inertia: mass / (time_step * time_step * damping),
             free: vector::scale(velocity, time_step),
             shares: &shares,
             potential,

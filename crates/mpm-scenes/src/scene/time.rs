@@ -16,7 +16,7 @@ pub struct TimeTable {
     /// When stresses are updated.
     #[serde(default)]
     pub stress_update: StressUpdateName,
-    /// Rate γ of damping: velocities are multiplied by e^{−γΔt} in every step. Default 0.
+    /// Rate γ of damping: v ← e^{−γΔt} (v + Δt f / m) in every step, with all forces f, tractions and contact among them. Default 0.
     #[serde(default)]
     pub damping: f64,
 }

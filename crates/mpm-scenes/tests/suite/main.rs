@@ -5,6 +5,7 @@ mod bad_meshes;
 mod bad_scenes;
 mod budget;
 mod contact;
+mod damping;
 mod document;
 mod facets;
 mod failures;
