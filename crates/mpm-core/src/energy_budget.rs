@@ -26,7 +26,7 @@ pub struct EnergyBudget {
     pub contact: f64,
     /// The work of Coulomb's [`Friction`](crate::Friction).
     pub friction: f64,
-    /// The work of the [`Boundary`](crate::Boundary).
+    /// The work of the [`Boundary`](crate::Boundary), that of [`NodeForces`](crate::NodeForces) among it.
     pub boundary: f64,
     /// What the viscous part of the stresses takes, their work along the motion less that of the stresses at rest; no part of what the nodes gain, whose `forces` it is in. 0 unless particles
     /// deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).

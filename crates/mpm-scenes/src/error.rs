@@ -99,6 +99,20 @@ pub enum SceneFault {
         /// `domain.upper`.
         upper: Vec<f64>,
     },
+    /// A particle lies in no cell of the mesh at the start, nor in its outer layer.
+    #[error(
+        "bodies.{body}: particle {particle} at {position:?} is outside the mesh: in a hole of it or beyond its boundary, and farther than its outer layer and mesh.reach = {reach:?}"
+    )]
+    OutsideMesh {
+        /// Its body.
+        body: String,
+        /// Its number in the order of creation.
+        particle: usize,
+        /// Its position.
+        position: Vec<f64>,
+        /// `mesh.reach`.
+        reach: f64,
+    },
     /// A particle is on the far side of a wall at the start.
     #[error(
         "bodies.{body}: particle {particle} at {position:?} is behind walls[{wall}], the plane through {point:?} that bounds the side which {normal:?} points to"
@@ -130,6 +144,18 @@ pub enum SceneFault {
         table: String,
         /// How deep, ≥ 0.
         depth: f64,
+    },
+    /// Two held regions have a node in common at the start, near a body, and move it in two ways.
+    #[error(
+        "held[{first}] and held[{second}] move in two ways and hold the same nodes: they must have no node of {nodes} in common near a body, or the same velocity and rotation"
+    )]
+    HeldTwice {
+        /// The earlier one.
+        first: usize,
+        /// The later one.
+        second: usize,
+        /// What nodes there are.
+        nodes: String,
     },
     /// The distance between the particles of a body is so short that they cannot be counted.
     #[error(

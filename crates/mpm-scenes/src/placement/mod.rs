@@ -3,6 +3,7 @@
 mod reach;
 
 use mpm_core::ON_A_SURFACE;
+use mpm_mesh::CellSearch;
 use mpm_tensor::vector as algebra;
 
 use crate::background::Background;
@@ -19,7 +20,7 @@ use reach::Nodes;
 /// Checks walls, obstacles, held regions and the barrier of a scene, whose bodies have been filled and whose forces have been made.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for what acts on nothing, [`SceneFault::InsideRigid`] for a body that begins inside an obstacle or the barrier.
+/// [`SceneFault::Value`] for what acts on nothing, [`SceneFault::InsideRigid`] for a body that begins inside an obstacle or the barrier, [`SceneFault::HeldTwice`].
 pub(crate) fn check<const D: usize>(
     scene: &Scene,
     background: &Background<D>,
@@ -30,7 +31,9 @@ pub(crate) fn check<const D: usize>(
     for (index, table) in scene.obstacles.iter().enumerate() {
         check_obstacle(scene, index, table, &nodes, particles)?;
     }
-    for (index, region) in HeldRegion::<D>::of(scene)?.iter().enumerate() {
+    let held = HeldRegion::<D>::of(scene)?;
+    check_held_once(&held, &nodes, particles)?;
+    for (index, region) in held.iter().enumerate() {
         let (field, table) = (format!("held[{index}].shape"), &scene.held[index].shape);
         let motion = &region.motion;
         let goes = algebra::norm(&motion.velocity) > 0.0;
@@ -43,6 +46,32 @@ pub(crate) fn check<const D: usize>(
             nodes.come_as_near(&*region.shape, ON_A_SURFACE * nodes.spacing())
         };
         within(&field, table, reached, &held_somewhere(&nodes))?;
+    }
+    Ok(())
+}
+
+/// Checks whether all particles are in a cell of the mesh, or within its `reach`: a step would find none for them.
+///
+/// # Errors
+/// [`SceneFault::OutsideMesh`] with the first that is not.
+pub(crate) fn check_on_mesh<const D: usize>(
+    scene: &Scene,
+    search: &CellSearch<D>,
+    particles: &Population<D>,
+) -> Result<(), SceneFault> {
+    let reach = scene.mesh.as_ref().map_or(0.0, |mesh| mesh.reach);
+    let mut near = None;
+    for (particle, position) in particles.positions.iter().enumerate() {
+        if let Some(located) = search.locate(position, near) {
+            near = Some(located.cell);
+        } else if !(reach > 0.0 && search.nearest(position, reach).is_some()) {
+            return Err(SceneFault::OutsideMesh {
+                body: particles.body(scene, particle).unwrap_or_default(),
+                particle,
+                position: position.to_vec(),
+                reach,
+            });
+        }
     }
     Ok(())
 }
@@ -123,6 +152,33 @@ fn check_obstacle<const D: usize>(
         nodes.meet(&swept(&*shape, &velocity, scene.time.end))
     };
     within(&field, &table.shape, reached, &held_somewhere(nodes)).map(drop)
+}
+
+/// Particles have no nodes farther away than this many cells.
+const REACH: f64 = 2.0;
+
+/// Whether no two held regions that move in two ways have nodes near a body in common at t = 0: one of them would say nothing.
+fn check_held_once<const D: usize>(
+    held: &[HeldRegion<D>],
+    nodes: &Nodes<D>,
+    particles: &Population<D>,
+) -> Result<(), SceneFault> {
+    for (second, region) in held.iter().enumerate() {
+        let others = held[..second].iter().enumerate();
+        for (first, other) in others.filter(|(_, other)| other.motion != region.motion) {
+            let in_both = |x: &[f64; D]| region.shape.distance(x).max(other.shape.distance(x));
+            let near = |x: &[f64; D]| in_both(x) <= REACH * nodes.cell();
+            let common = || nodes.found(&in_both, ON_A_SURFACE * nodes.spacing());
+            if particles.positions.iter().any(near) && common() == Some(true) {
+                return Err(SceneFault::HeldTwice {
+                    first,
+                    second,
+                    nodes: nodes.described(),
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// What is asked of a shape that acts on the nodes in it.

@@ -6,7 +6,7 @@ use crate::background::Background;
 use crate::scene::Scene;
 use crate::shape::{Bounds, Shape};
 
-/// Boxes of nodes that are looked at before a shape is taken for one that comes near: thin plates between the nodes of a large grid.
+/// Boxes of nodes that are looked at before a search is given up.
 const MOST_BOXES: usize = 200_000;
 
 /// The nodes of a background.
@@ -93,10 +93,15 @@ impl<'a, const D: usize> Nodes<'a, D> {
         (0..D).all(|a| common.lower[a] <= common.upper[a])
     }
 
-    /// Whether a node is in a shape, or within a distance of it.
+    /// Whether a node is in a shape, or within a distance of it. Thin plates between the nodes of a large grid are taken for shapes that have one.
     pub fn come_as_near(&self, shape: &dyn Shape<D>, distance: f64) -> bool {
+        self.found(&|x| shape.distance(x), distance).unwrap_or(true)
+    }
+
+    /// Whether there is a node with a function of at most a limit, no steeper than a distance; `None` where it has not been found out.
+    pub fn found(&self, shape: &dyn Fn(&[f64; D]) -> f64, distance: f64) -> Option<bool> {
         match self {
-            Self::Mesh { whole, .. } => whole.vertices().iter().any(|x| shape.distance(x) <= distance),
+            Self::Mesh { whole, .. } => Some(whole.vertices().iter().any(|x| shape(x) <= distance)),
             Self::Grid { spacing, domain, .. } => Lattice {
                 origin: domain.lower.map(|c| c - spacing),
                 spacing: *spacing,
@@ -119,7 +124,7 @@ fn grown<const D: usize>(bounds: &Bounds<D>, by: f64) -> Bounds<D> {
 struct Lattice<'a, const D: usize> {
     origin: [f64; D],
     spacing: f64,
-    shape: &'a dyn Shape<D>,
+    shape: &'a dyn Fn(&[f64; D]) -> f64,
     distance: f64,
 }
 
@@ -134,18 +139,18 @@ struct Part<const D: usize> {
 impl<const D: usize> Lattice<'_, D> {
     fn part(&self, lower: [u64; D], upper: [u64; D]) -> Part<D> {
         let middle = std::array::from_fn(|a| self.origin[a] + 0.5 * (lower[a] + upper[a]) as f64 * self.spacing);
-        let distance = self.shape.distance(&middle) - self.distance;
+        let distance = (self.shape)(&middle) - self.distance;
         Part { lower, upper, distance }
     }
 
-    fn has_node(&self, domain: &Bounds<D>) -> bool {
+    fn has_node(&self, domain: &Bounds<D>) -> Option<bool> {
         let upper = std::array::from_fn(|a| {
             let count = ((domain.upper[a] - domain.lower[a]) / self.spacing).ceil();
             (count.max(0.0) as u64).min(1 << 48) + 2
         });
         let mut parts = vec![self.part([0; D], upper)];
         for _ in 0..MOST_BOXES {
-            let Some(part) = parts.pop() else { return false };
+            let Some(part) = parts.pop() else { return Some(false) };
             let sides = (0..D).map(|a| ((part.upper[a] - part.lower[a]) as f64 * self.spacing).powi(2));
             let radius = 0.5 * sides.sum::<f64>().sqrt();
             if part.distance > radius {
@@ -153,10 +158,10 @@ impl<const D: usize> Lattice<'_, D> {
             }
             // No number at all is what the step will say something about.
             if part.distance <= -radius || part.distance.is_nan() {
-                return true;
+                return Some(true);
             }
             let Some(axis) = (0..D).max_by_key(|&a| part.upper[a] - part.lower[a]) else {
-                return false;
+                return Some(false);
             };
             let middle = part.lower[axis] + (part.upper[axis] - part.lower[axis]) / 2;
             let (mut left, mut right) = (part, part);
@@ -167,6 +172,6 @@ impl<const D: usize> Lattice<'_, D> {
             let last = usize::from(halves[1].distance < halves[0].distance);
             parts.extend([halves[1 - last], halves[last]]);
         }
-        true
+        None
     }
 }

@@ -41,7 +41,7 @@ impl<'a, const D: usize> Body<'a, D> {
     /// At t = 0.
     ///
     /// # Errors
-    /// What [`Population::fill`] says, [`SceneFault::InsideRigid`], [`SceneFault::Value`] for what acts on nothing, [`SceneFault::TimeStep`] for a step above the Courant condition, and [`SceneFault::TooManySteps`].
+    /// What [`Population::fill`] says, [`SceneFault::InsideRigid`], [`SceneFault::OutsideMesh`], [`SceneFault::Value`] for what acts on nothing, [`SceneFault::HeldTwice`], [`SceneFault::TimeStep`] for a step above the Courant condition, and [`SceneFault::TooManySteps`].
     pub fn begin(scene: &'a Scene) -> Result<Self, SimulationError> {
         let refused = |fault| scene.error(fault);
         let background = Background::build(scene).map_err(refused)?;

@@ -22,7 +22,7 @@ pub(super) struct Budget {
     barrier_integration: f64,
 }
 
-/// The names of its columns. Dissipations and works are those since t = 0; `energy_balance` is constant but for what plastic laws dissipate.
+/// The names of its columns. Dissipations and works are those since t = 0; `energy_balance` is constant but for what plastic laws dissipate, and what is of second order in the step where they do.
 pub(super) const COLUMNS: [&str; 9] = [
     "transfer_dissipation",
     "friction_dissipation",

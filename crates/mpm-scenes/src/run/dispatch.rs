@@ -48,7 +48,7 @@ struct Grid<const D: usize> {
 /// The body of a scene at t = 0.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for tables that [`Scene::read`] refuses.
+/// [`SceneFault::OutsideMesh`], what [`placement::check_barrier`] says, and [`SceneFault::Value`] for tables that [`Scene::read`] refuses.
 pub(super) fn build<const D: usize>(
     scene: &Scene,
     population: &Population<D>,
@@ -72,6 +72,7 @@ pub(super) fn build<const D: usize>(
         }
         (Discretisation::Mesh(_), Background::Mesh { whole, .. }) => {
             let basis = mesh_basis(scene, &whole)?;
+            placement::check_on_mesh(scene, basis.search(), population)?;
             on_basis(parts, basis)
         }
         _ => Err(SceneFault::missing("grid", "given unless there is a [mesh]")),

@@ -3,6 +3,7 @@
 mod barrier;
 mod body;
 mod boundary;
+mod caution;
 mod check;
 mod discretisation;
 mod facets;

@@ -62,10 +62,19 @@ pub trait Shape<const D: usize>: std::fmt::Debug + Send + Sync {
     }
 }
 
-/// v / |v|; zero for the zero vector.
+/// v / |v|; zero for the zero vector. Where the square of |v| is no normal number, v is divided by its largest component first.
 pub(crate) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
-    let length = mpm_tensor::vector::norm(&v);
-    if length > 0.0 { v.map(|c| c / length) } else { [0.0; D] }
+    let square = mpm_tensor::vector::dot(&v, &v);
+    if square.is_normal() {
+        return v.map(|c| c / square.sqrt());
+    }
+    let largest = v.iter().fold(0.0f64, |largest, c| largest.max(c.abs()));
+    if !(largest > 0.0 && largest.is_finite()) {
+        return [0.0; D];
+    }
+    let scaled = v.map(|c| c / largest);
+    let length = mpm_tensor::vector::norm(&scaled);
+    scaled.map(|c| c / length)
 }
 
 /// Volume of the ball of radius r in n dimensions, n ≤ 3; NaN beyond.

@@ -41,9 +41,50 @@ fn a_body_beyond_a_narrow_mesh_is_named_with_the_place() {
     let square = "generate = { kind = \"rectangle\", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.2 }";
     let text = without_barrier().replace(square, disk);
     let text = text + "\n[domain]\nlower = [0.0, 0.0]\nupper = [1.0, 1.0]\n";
-    let message = outside(&text);
-    let expected = "step 1 at t = 0: bodies.block: particle 0 is at [0.32";
-    assert!(message.starts_with(expected), "{message}");
+    refused_before_a_frame(&text, "bodies.block: particle 0 at [0.32");
+}
+
+/// The hole is wider than the cells of the layer in it.
+#[test]
+fn a_body_over_a_hole_is_refused_before_a_frame_is_written() {
+    let hole = "generate = { kind = \"polygon\", corners = [[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]], holes = [[[-0.5, -0.5], [1.5, -0.5], [1.5, 1.5], [-0.5, 1.5]]], size = 0.2 }";
+    let square = "generate = { kind = \"rectangle\", lower = [0.0, 0.0], upper = [1.0, 1.0], size = 0.2 }";
+    let wall = "[[walls]]\naxis = \"x\"\nside = \"lower\"\ncondition = \"slip\"\n";
+    let text = without_barrier().replace(square, hole).replace(wall, "");
+    for layer in ["outer_layer = true", "outer_layer = false", "reach = 0.1"] {
+        let text = text.replace("outer_layer = false", layer);
+        refused_before_a_frame(&text, "bodies.block: particle 0 at [0.3");
+    }
+}
+
+/// Half of the body is beyond a mesh that ends at x = 0.45, within `reach` or not.
+#[test]
+fn a_body_beyond_the_mesh_may_be_within_its_reach() {
+    let text = without_barrier().replace("upper = [1.0, 1.0], size = 0.2 }", "upper = [0.45, 1.0], size = 0.2 }");
+    let text = text + "\n[domain]\nlower = [0.0, 0.0]\nupper = [1.0, 1.0]\n";
+    let with_reach =
+        |reach: &str| text.replace("outer_layer = false", &format!("outer_layer = false\nreach = {reach}"));
+    refused_before_a_frame(&with_reach("0.1"), "and mesh.reach = 0.1");
+    let scene = Scene::parse(&with_reach("0.2"), Path::new("mesh.toml")).expect("a good scene");
+    let directory = tempfile::tempdir().expect("a directory");
+    simulate(&scene, directory.path(), &mut ()).expect("a run");
+}
+
+fn refused_before_a_frame(text: &str, expected: &str) {
+    let scene = Scene::parse(text, Path::new("mesh.toml")).expect("a good scene");
+    let directory = tempfile::tempdir().expect("a directory");
+    let message = simulate(&scene, directory.path(), &mut ())
+        .expect_err("it is outside")
+        .to_string();
+    assert!(
+        message.contains(expected) && message.contains("is outside the mesh"),
+        "{message}"
+    );
+    let files = std::fs::read_dir(directory.path()).expect("a directory");
+    let frames = files
+        .flatten()
+        .filter(|file| file.path().extension().is_some_and(|kind| kind == "vtu"));
+    assert_eq!(frames.count(), 0);
 }
 
 fn without_barrier() -> String {

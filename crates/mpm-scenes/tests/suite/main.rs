@@ -14,6 +14,7 @@ mod forces;
 mod held_facets;
 mod kinematic;
 mod law;
+mod limits;
 mod on_meshes;
 mod output;
 mod placement;

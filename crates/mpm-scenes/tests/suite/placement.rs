@@ -52,6 +52,39 @@ fn a_held_region_that_arrives_or_turns_is_accepted() {
     assert!(held("velocity = [0.0, -6.0]\nuntil = 0.001").is_some());
 }
 
+/// Two regions at a body, of which one would say nothing about the nodes in both.
+#[test]
+fn two_motions_of_the_same_nodes_are_refused() {
+    let held = |centre: [f64; 2], velocity: [f64; 2]| {
+        format!(
+            "\n[[held]]\nshape = {{ kind = \"sphere\", centre = {centre:?}, radius = 0.3 }}\nvelocity = {velocity:?}\n"
+        )
+    };
+    let first = held([0.75, 0.5], [0.0, 0.0]);
+    let two = |centre, velocity| block(&format!("{first}{}", held(centre, velocity)));
+    let message = two([1.0, 0.5], [0.0, 1.0]).expect("they have nodes in common");
+    let expected = "held[0] and held[1] move in two ways and hold the same nodes";
+    assert!(message.contains(expected), "{message}");
+    assert_eq!(two([1.0, 0.5], [0.0, 0.0]), None);
+    assert_eq!(two([1.5, 0.5], [0.0, 1.0]), None);
+    // No particle is near the nodes that a lid and a side have in common.
+    let half_space = |point: [f64; 2], normal: [f64; 2], motion: &str| {
+        format!("\n[[held]]\nshape = {{ kind = \"half-space\", point = {point:?}, normal = {normal:?} }}\n{motion}\n")
+    };
+    let side = half_space([0.1, 0.0], [1.0, 0.0], "");
+    let lid = half_space([0.0, 1.9], [0.0, -1.0], "velocity = [0.0, -0.1]");
+    assert_eq!(block(&(side + &lid)), None);
+}
+
+/// A normal has no length that it must have.
+#[test]
+fn a_normal_of_any_length_is_one() {
+    for length in ["1e300", "3.0", "1e-300"] {
+        let wall = format!("\n[[walls]]\npoint = [0.0, 0.0]\nnormal = [{length}, 0.0]\ncondition = \"slip\"\n");
+        assert_eq!(block(&wall), None, "{length}");
+    }
+}
+
 /// A plate through the nodes of one column is found, wherever it stands; one between two columns holds none.
 #[test]
 fn nodes_in_thin_plates_are_found() {

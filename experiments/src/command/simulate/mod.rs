@@ -28,6 +28,9 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     FileKind::Scene.check(&arguments.scene)?;
     let scene = Scene::read(&arguments.scene)?;
+    for caution in scene.cautions() {
+        console::notice(&caution);
+    }
     interrupt::listen_once_begun();
     let mut progress = Bar::new(&format!("{{bar:30}} {{msg}} of {}, {{eta}} left", scene.time.end));
     let start = Instant::now();
