@@ -125,7 +125,7 @@ fn the_cylinder_widens_under_pressure() {
     // Loaded and at rest sooner, in longer steps.
     let changes = [
         ("ramp = 1.0", "ramp = 0.12"),
-        ("end = 2.0", "end = 0.24"),
+        ("end = 2.0", "end = 0.36"),
         ("damping = 20.0", "damping = 40.0"),
         ("courant = 0.4", "courant = 0.8"),
     ];
