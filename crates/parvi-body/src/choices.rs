@@ -31,10 +31,10 @@ pub enum TransferChoice {
 /// Where the score is evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ScoreLocation {
-    /// At the particles (paper, Eq. 5); exact moments.
+    /// At the particles, where the paper's Eq. 5 begins; exact moments.
     #[default]
     Particles,
-    /// At the nodes, weighted by nodal mass (paper, Eq. 3); cheaper when nodes are few, but the particles'
+    /// At the nodes, as in the paper's Eq. 3, there without nodal mass, here weighted by it; cheaper when nodes are few, but the particles'
     /// covariance shrinks by the variance of the kernel.
     Nodes,
     /// At the particles, but evaluated at the nodes of a grid of its own only, each once, and interpolated (docs/theory.md, §15): for targets whose score takes seconds. Without a survey,

@@ -85,7 +85,7 @@ pub struct ScoreForce<'a, const D: usize> {
     pub score: FramedScore<'a, D>,
     /// Factor α.
     pub alpha: f64,
-    /// At the particles as a force per unit mass (paper, Eq. 5), or at the nodes (Eq. 3).
+    /// At the particles (the paper, Eq. 5), or at the nodes (Eq. 3).
     pub location: ScoreLocation,
     /// A force per unit mass, m_i α s(x_i) at the nodes and m_p α s(x_p) at the particles, instead of α s(x_i) and α s(x_p).
     pub mass_weighted: bool,

@@ -6,7 +6,7 @@ use crate::SampleError;
 
 /// What is given of the particles at the start, in the target's own coordinates and in the order of the particles; `None`: the method's own choice.
 ///
-/// The paper's algorithms take all of it (inputs x_p, v_p, m_p, V⁰_p of Algorithms 1 and 2), other methods that move particles from a start take positions.
+/// The paper's algorithms take all of it (inputs x_p, v_p, m_p, V⁰_p of Algorithms 1 and 2; B_p of Algorithm 2 begins with 0), other methods that move particles from a start take positions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GivenParticles {
     /// X_p, M × D, row by row; finite.

@@ -70,7 +70,7 @@ with_defaults! {
     pub struct PaperOptions {
         /// Algorithm 2 (APIC) instead of Algorithm 1 (PIC).
         pub affine: bool = false,
-        /// Share a ∈ [0, 1] of FLIP in the new velocities (paper, footnote 2: hybrid of PIC and FLIP): v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); 0 in the algorithms.
+        /// Share a ∈ [0, 1] of FLIP in the new velocities (the paper, footnote 2 of Algorithm 1: hybrid of PIC and FLIP): v_p ← (1−a) Σ w_ip v_iⁿ⁺¹ + a (v_p + Σ w_ip (v_iⁿ⁺¹ − v_iⁿ)); 0 in the algorithms.
         pub flip_share: f64 = 0.0,
         /// Background basis.
         pub basis: BasisChoice = BasisChoice::Quadratic,

@@ -13,7 +13,7 @@ struct Inputs {
     steps: usize,
     alpha: f64,
     apic: bool,
-    /// Share of FLIP (footnote 2).
+    /// Share of FLIP (footnote 2 of Algorithm 1).
     flip: f64,
     at_nodes: bool,
     x: Vec<f64>,
