@@ -2,8 +2,8 @@
 
 use mpm_tensor::vector;
 
-/// The position error of Chen et al. 2023: 100 √(Σ|g − φ|² / Σ|φ|²) in per cent, the sums over all steps, points and test runs, with positions relative to the
-/// body's centroid at rest.
+/// The position error of Chen et al. 2023, §5: 100 √(Σ|g − φ|² / Σ|φ|²) in per cent, the sums over all steps, points and test runs, with positions relative to the
+/// body's centroid at rest (ours: the paper names no origin).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PositionError {
     /// Σ|g − φ|².

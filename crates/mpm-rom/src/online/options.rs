@@ -82,7 +82,7 @@ words! {
     Update {
         /// x̂ ← x̂ + Δt v̂; kinematic points have the velocity that takes them to their prescribed position (ours), so that errors at them do not add up.
         VelocityOnly = "velocity-only",
-        /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}, with at most three steps, the paper's number.
+        /// x̂ = argmin Σ|g(X_p, x̂) − x_p|², begun at 2 x̂_n − x̂_{n−1}, with at most three steps (ours: the paper's searches typically end after two or three).
         #[default]
         PositionVelocity = "position-velocity",
     }

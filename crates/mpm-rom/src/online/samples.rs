@@ -16,7 +16,7 @@ pub(super) const ON_EACH_REGION: usize = 5;
 pub enum SampleChoice {
     /// Every material point.
     All,
-    /// So many, drawn evenly: five from each kinematic region, the others from the points that are in none (ours: the paper only says how many).
+    /// So many, drawn evenly: five from each kinematic region, the others from the points that are in none. Once for a run (ours: the paper draws them anew in every step).
     Drawn {
         /// |𝒫|.
         count: usize,

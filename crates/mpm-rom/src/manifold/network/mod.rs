@@ -25,7 +25,7 @@ use crate::product::Weights;
 pub(crate) const CHUNK: usize = 64;
 
 /// g̃(X, x̂) = mean + deviation ∘ y(u, x̂) with u = (X − centre) ∘ factor and y fully connected, (D + r) → width → … → width → D, ELU between
-/// (Chen et al. 2023, §4 and Table 1: width 30, depth 4).
+/// (Chen et al. 2023, §4 and Table 1: width 30, depth 4 by its rows; its caption calls all five layers hidden).
 ///
 /// Derivatives are forward tangents carried through the same layers: ẏ' = ELU'(z) ∘ (W ẏ).
 #[derive(Clone, Debug, PartialEq)]
