@@ -17,7 +17,7 @@ pub(crate) use ring_lanes::{RingLanes, SETS};
 /// How the nodes of a first ring are weighted in the least squares fit of a particle (Cao et al. 2024, §2.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SampleWeight {
-    /// d′_pi = η_pi N₂(‖x_i − x_p‖ / h) with η_pi = Σ_{n ∈ N⁰_p} b_pn A_in: a node that only some vertices of the cell are joined
+    /// d′_pi = η_pi N₂(‖x_i − x_p‖ / h) with η_pi = Σ_{n ∈ N⁰_p} b_pn A_in (Eq. 32), A_nn = 1, and N₂ as the closed forms of Appendix C have it: a node that only some vertices of the cell are joined
     /// to counts the less, the closer the particle is to the others. Weights and gradients are continuous across faces.
     #[default]
     Continuous,

@@ -12,8 +12,8 @@ use crate::{Frame, NO_CELL, SimplexMesh};
 /// Facets that a walk crosses before it is given up for the buckets.
 const LONGEST_WALK: usize = 16;
 
-/// Finds the cell of a point: a walk through facet neighbours from a cell near it, or a look into a bucket of cells. Built once
-/// per mesh.
+/// Finds the cell of a point: a walk through facet neighbours from a cell near it (ours), or a look into a bucket of cells (Cao et al. 2024, Appendix A, has that
+/// alone). Built once per mesh.
 ///
 /// The answer depends on the point alone: the cell that the point lies inside of, by more than a tolerance of rounding; on facets, edges
 /// and vertices the lowest of the cells there.

@@ -105,16 +105,53 @@ fn all_pieces_are_those_of_exact_arithmetic() {
     }
 }
 
+/// Eqs. 46 and 47 from the half cell [½, 1] on: weight, gradient and denominator in sixteenths, by ascending powers of x. The coefficients are printed to six digits, 205.563 for 3289/16.
+/// Gradients three to five are printed over the denominator with the opposite sign. The first one has the sign of the kernel, which the text that was read lacks.
+const PRINTED: [[&[i128]; 3]; 6] = [
+    [&[0, 1, -4, 4], &[0, 8, -36, 48, -16], &[-9, 101, -220, 216, -96, 16]],
+    [
+        &[1, 5, -53, 136, -152, 80, -16],
+        &[17, -93, 184, -168, 80, -16],
+        &[17, -21, 52, -88, 64, -16],
+    ],
+    [
+        &[676, -2353, 3289, -2372, 936, -192, 16],
+        &[-442, 1077, -1052, 536, -144, 16],
+        &[-658, 1653, -1604, 760, -176, 16],
+    ],
+    [
+        &[624, -2263, 3241, -2364, 936, -192, 16],
+        &[-858, 2005, -1796, 792, -176, 16],
+        &[258, -725, 860, -504, 144, -16],
+    ],
+    [
+        &[14651, -28707, 23253, -9976, 2392, -304, 16],
+        &[-4067, 6685, -4392, 1448, -240, 16],
+        &[4867, -7925, 5100, -1624, 256, -16],
+    ],
+    [
+        &[196, -161, 44, -4],
+        &[1568, -2072, 996, -208, 16],
+        &[2507, -4613, 3396, -1240, 224, -16],
+    ],
+];
+
 #[test]
-fn the_first_printed_piece_is_the_derived_one() {
-    let polynomial =
-        |ascending: &[(i128, i128)]| Polynomial::new(ascending.iter().map(|&(n, d)| Fraction::new(n, d)).collect());
-    let weight = polynomial(&[(1, 16), (5, 16), (-53, 16), (17, 2), (-19, 2), (5, 1), (-1, 1)]);
-    let gradient = polynomial(&[(17, 16), (-93, 16), (23, 2), (-21, 2), (5, 1), (-1, 1)]);
-    let common = polynomial(&[(17, 16), (-21, 16), (13, 4), (-11, 2), (4, 1), (-1, 1)]);
-    let derived = piece(2);
-    assert_eq!(weight.times(&derived.determinant), derived.weight.times(&common));
-    assert_eq!(gradient.times(&derived.determinant), derived.gradient.times(&common));
+fn the_printed_pieces_are_the_derived_ones() {
+    let polynomial = |sixteenths: &[i128]| Polynomial::new(sixteenths.iter().map(|&n| Fraction::new(n, 16)).collect());
+    for (printed, half) in PRINTED.iter().zip(1..) {
+        let [weight, gradient, denominator] = printed.map(polynomial);
+        let derived = piece(half);
+        let equal = |printed: &Polynomial, derived_numerator: &Polynomial| {
+            assert_eq!(
+                printed.times(&derived.determinant),
+                derived_numerator.times(&denominator),
+                "half cell {half}"
+            );
+        };
+        equal(&weight, &derived.weight);
+        equal(&gradient, &derived.gradient);
+    }
 }
 
 #[test]

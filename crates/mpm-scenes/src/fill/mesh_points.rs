@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use crate::shape::Ball;
 
-    /// The disk of the two-disks problem: 462 points in Cao et al. (2024), of which the paper does not say how they are found.
+    /// The disk of the two-disks problem: 462 points in Cao et al. (2024), §3.2, from a triangle mesh of the disk of which nothing else is said.
     #[test]
     fn particles_have_the_volume_of_the_mesh() {
         let target = EdgeTarget {

@@ -107,7 +107,7 @@ pub(super) fn validate(run: &Run) -> Rows {
     Ok(vec![of_scene(run.scene)?.check(&run.curve("centre_x")?, 0.005)])
 }
 
-/// As [`validate`], with the 0.554 % of Cao et al. (2024), and for every probe at a point the stress of its particle: the error over the first period / amplitude.
+/// As [`validate`], with the 0.554 % of Cao et al. (2024), §3.1, who have them for displacements of particles, and for every probe at a point the stress of its particle: the error over the first period / amplitude.
 ///
 /// # Errors
 /// [`SceneFault::Value`](crate::SceneFault::Value) for a scene that is no bar.

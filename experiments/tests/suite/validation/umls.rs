@@ -1,4 +1,4 @@
-//! The problems of Cao et al. (2024) on meshes, shortened and coarse; whole ones in docs/results/mechanics.
+//! The problems of Cao et al. (2024) on meshes, shortened and coarse; whole ones in docs/results/umls.
 
 use super::problem::{Finished, pinned, run};
 
