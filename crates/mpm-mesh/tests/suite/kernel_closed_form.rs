@@ -106,7 +106,7 @@ fn all_pieces_are_those_of_exact_arithmetic() {
 }
 
 /// Eqs. 46 and 47 from the half cell [½, 1] on: weight, gradient and denominator in sixteenths, by ascending powers of x. The coefficients are printed to six digits, 205.563 for 3289/16.
-/// Gradients three to five are printed over the denominator with the opposite sign. The first one has the sign of the kernel, which the text that was read lacks.
+/// Gradients three to five are printed over the denominator with the opposite sign. The first one has the sign that continuity at x = 1 asks for, which may have been lost in print.
 const PRINTED: [[&[i128]; 3]; 6] = [
     [&[0, 1, -4, 4], &[0, 8, -36, 48, -16], &[-9, 101, -220, 216, -96, 16]],
     [
