@@ -6,7 +6,7 @@ use crate::MpmError;
 /// How B_p changes beside a v_p that changes as with [`Flip`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Moments {
-    /// B_p = Σ_i w_ip v_iⁿ⁺¹ (x_i − x_p)ᵀ, as in the paper. Where particles run towards each other the nodes' gradients grow while v_p is kept, so that kinetic energy is made without a force.
+    /// B_p = Σ_i w_ip v_iⁿ⁺¹ (x_i − x_p)ᵀ, as Fei et al. have it. Where particles run towards each other the nodes' gradients grow while v_p is kept, so that kinetic energy is made without a force.
     #[default]
     OfNodes,
     /// B_p ← (1−a) Σ_i w_ip v_iⁿ⁺¹ (x_i − x_p)ᵀ + a (B_p + Σ_i w_ip (v_iⁿ⁺¹ − v_iⁿ) (x_i − x_p)ᵀ), as v_p. With a = 1 particles gain no more kinetic energy than the nodes:
@@ -30,7 +30,7 @@ pub struct AffineFlip {
 }
 
 impl AffineFlip {
-    /// The paper's: B_p is that of the nodes.
+    /// That of Fei et al.: B_p is that of the nodes.
     pub const fn new(flip: Flip) -> Self {
         Self {
             flip,
