@@ -150,4 +150,16 @@ mod tests {
         asked.judged = &unknown;
         assert_eq!(unmet(&asked).as_deref(), Some("judged"));
     }
+
+    #[test]
+    fn x_is_over_logarithms_from_a_factor_of_two_on() {
+        let asked = Asked {
+            judgements: &[],
+            judged: &[],
+        };
+        let kind = |points: &[(f64, f64)]| asked.plot(&[through(points)], "", ["x", "y"]).x.kind;
+        assert_eq!(kind(&[(1.0, 0.5), (1.9, 0.5)]), AxisKind::Linear);
+        assert_eq!(kind(&[(1.0, 0.5), (2.0, 0.5)]), AxisKind::Logarithmic);
+        assert_eq!(kind(&[(0.0, 0.5), (2.0, 0.5)]), AxisKind::Linear);
+    }
 }
