@@ -31,8 +31,10 @@ impl SampleCount {
 words! {
     /// How sample points are chosen; see [`SampleChoice`](crate::online::SampleChoice).
     ChoiceName {
-        /// Drawn evenly.
+        /// Drawn evenly, once for a run.
         Drawn = "drawn",
+        /// Drawn evenly, anew in every step.
+        Redrawn = "redrawn",
         /// Each the farthest from those before it.
         Spread = "spread",
         /// Those that stand for all points best in steps from frames of the training data ([`choose_greedily`](crate::online::choose_greedily)).

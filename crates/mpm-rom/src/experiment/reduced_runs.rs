@@ -25,7 +25,7 @@ pub struct ReducedRuns {
     pub samples: Vec<SampleCount>,
     /// Ways to choose them.
     pub choice: Vec<ChoiceName>,
-    /// Seed of the draw of sample points.
+    /// Seed of the draws of sample points.
     pub seed: u64,
     /// Exchanges that are tried on training runs (with the first quadrature and update), of greedily chosen points where they are 24 at most.
     pub exchanges: usize,
@@ -97,6 +97,7 @@ impl ReducedRuns {
         };
         match choice.chosen {
             ChoiceName::Drawn => Ok(SampleChoice::Drawn { count, seed }),
+            ChoiceName::Redrawn => Ok(SampleChoice::Redrawn { count, seed }),
             ChoiceName::Spread => Ok(SampleChoice::Spread { count, seed }),
             ChoiceName::Greedy | ChoiceName::Cubature => {
                 let of = (choice.manifold, choice.network, choice.chosen, count);

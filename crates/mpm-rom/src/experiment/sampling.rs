@@ -55,7 +55,7 @@ impl<const D: usize> Sampling<'_, D> {
         match choice {
             ChoiceName::Greedy => self.choose_greedily(counts, into),
             ChoiceName::Cubature => self.choose_cubature(counts, into),
-            ChoiceName::Drawn | ChoiceName::Spread => Ok(()),
+            ChoiceName::Drawn | ChoiceName::Redrawn | ChoiceName::Spread => Ok(()),
         }
     }
 

@@ -48,6 +48,12 @@ impl<const D: usize> GaussNewton<D> {
         }
     }
 
+    /// Other weights of the points; the storage stays.
+    pub(crate) fn weigh(&mut self, weights: Vec<f64>) {
+        self.solver.weigh(&weights);
+        self.weights = weights;
+    }
+
     /// Moves `y` to a minimum, and returns that, Σ_p ω_p |g_p(y) − x_p|²; `evaluate` gives g_p(y), with ∂g_p/∂y where wanted.
     ///
     /// # Errors

@@ -55,6 +55,12 @@ impl LeastSquares {
         }
     }
 
+    /// Other weights, as in [`weighted`](Self::weighted); the storage stays.
+    pub(crate) fn weigh(&mut self, weights: &[f64]) {
+        self.roots.clear();
+        self.roots.extend(weights.iter().map(|weight| weight.sqrt()));
+    }
+
     /// w, r = `solution.len()` numbers, for P points: `jacobians` has ∂/∂w_k at point p as entry p r + k, `targets` y_p.
     ///
     /// # Errors

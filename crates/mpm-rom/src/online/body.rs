@@ -90,6 +90,12 @@ impl<const D: usize> ReducedBody<D> {
         Some(self)
     }
 
+    /// X_p of the points with these numbers; numbers that there are not are left out.
+    pub(super) fn reference_of(&self, numbers: &[u32]) -> Vec<[f64; D]> {
+        let places = numbers.iter().filter_map(|&p| self.reference.get(p as usize));
+        places.copied().collect()
+    }
+
     /// Position and velocity of a material point at a time; `None` where they are not prescribed.
     pub fn prescribed(&self, point: usize, time: f64) -> Option<([f64; D], [f64; D])> {
         let reference = vector::add(self.reference.get(point)?, &self.centroid);

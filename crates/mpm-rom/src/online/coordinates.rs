@@ -38,6 +38,12 @@ impl<const D: usize> Coordinates<D> {
         }
     }
 
+    /// Other sample points have other weights.
+    pub fn weigh(&mut self, weights: Vec<f64>) {
+        self.solver.weigh(&weights);
+        self.search.weigh(weights);
+    }
+
     /// v̂ = argmin Σ ω_p |∂g/∂x̂(X_p, x̂_n) v̂ − v_p|²; `evaluation` is that of the sample points at x̂_n.
     pub fn find_rates(&mut self, evaluation: &Evaluation<D>, velocities: &[[f64; D]]) -> Result<(), LeastSquaresError> {
         self.solver.solve(&evaluation.jacobians, velocities, &mut self.rates)

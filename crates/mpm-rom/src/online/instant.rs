@@ -11,6 +11,8 @@ pub(super) struct Instant<'a, const D: usize> {
     /// X_p of the sample points, and the map there.
     pub reference: &'a [[f64; D]],
     pub samples: &'a Evaluation<D>,
+    /// Their numbers, where they are others in every step.
+    pub redrawn: Option<&'a [u32]>,
     /// What happens at J ≤ 0.
     pub inverted: Inverted,
 }

@@ -14,6 +14,9 @@ pub(super) struct Lagrangian<const D: usize> {
     /// All material points.
     all: MaterialPoints<D>,
     list: NeighbourList<D>,
+    /// Where all points were when the list was made, if sample points are drawn anew.
+    seen: Vec<[f64; D]>,
+    seen_samples: Vec<[f64; D]>,
     candidates: MaterialPoints<D>,
     /// Numbers of the points that touch ℐ.
     touching: Vec<u32>,
@@ -29,12 +32,19 @@ impl<const D: usize> Lagrangian<D> {
             search,
             all,
             list: NeighbourList::default(),
+            seen: Vec::new(),
+            seen_samples: Vec::new(),
             candidates: MaterialPoints::default(),
             touching: Vec::new(),
             chosen: MaterialPoints::default(),
             evaluation: Evaluation::default(),
             refreshes: 0,
         }
+    }
+
+    /// What the map needs of these of all material points.
+    pub fn select(&self, numbers: &[u32], out: &mut MaterialPoints<D>) {
+        out.select(&self.all, numbers);
     }
 
     /// The quadrature points of this instant.
@@ -76,6 +86,9 @@ impl<const D: usize> Lagrangian<D> {
         map.evaluate(&self.all, now.latent, Wanted::default(), &mut self.evaluation);
         let positions = &self.evaluation.positions;
         if let Search::Lists { skin } = self.search {
+            if now.redrawn.is_some() {
+                self.seen.clone_from(positions);
+            }
             self.list
                 .rebuild(positions, &now.samples.positions, nodes.grid.spacing(), skin);
             self.candidates.select(&self.all, &self.list.points);
@@ -85,10 +98,22 @@ impl<const D: usize> Lagrangian<D> {
         self.touching.extend(touching.map(|(_, point)| point));
     }
 
+    /// The list of other sample points: it is that which would have been made for them when all points were seen last.
+    fn relist(&mut self, numbers: &[u32], spacing: f64, skin: f64) {
+        let seen = numbers.iter().filter_map(|&p| self.seen.get(p as usize));
+        self.seen_samples.clear();
+        self.seen_samples.extend(seen);
+        self.list.rebuild(&self.seen, &self.seen_samples, spacing, skin);
+        self.candidates.select(&self.all, &self.list.points);
+    }
+
     /// Whether there is a list that holds; the evaluation is then that of its points.
     fn listed(&mut self, map: &DeformationMap<'_, D>, nodes: &Nodes<D>, now: &Instant<D>, skin: f64) -> bool {
         if self.list.points.is_empty() {
             return false;
+        }
+        if let Some(numbers) = now.redrawn {
+            self.relist(numbers, nodes.grid.spacing(), skin);
         }
         map.evaluate(&self.candidates, now.latent, Wanted::default(), &mut self.evaluation);
         let positions = &self.evaluation.positions;

@@ -17,6 +17,7 @@ mod options;
 mod quadrature;
 mod ranked_exchanges;
 mod reading;
+mod redraw;
 mod samples;
 mod scaled_reading;
 mod snapshot;

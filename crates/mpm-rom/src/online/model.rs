@@ -5,6 +5,7 @@ use super::eulerian::Eulerian;
 use super::lagrangian::Lagrangian;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
+use super::redraw::Redraw;
 use super::step::Scheme;
 use super::{
     Inverted, OnlineError, Options, Quadrature, ReducedBody, ReducedModel, SampleChoice, SampleWeights, StepReport,
@@ -54,8 +55,9 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
         options.quadrature.check()?;
         let own = options.samples.weights()?;
         let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
-        let of_samples = sample_numbers.iter().filter_map(|&p| body.reference.get(p as usize));
-        let samples = map.prepare(&of_samples.copied().collect::<Vec<_>>());
+        let samples = map.prepare(&body.reference_of(&sample_numbers));
+        let points = body.reference.len();
+        let redraw = Redraw::of(&options.samples, points, map.coordinates(), &body.kinematics)?;
         let scheme = match options.quadrature {
             Quadrature::Lagrangian { search } => {
                 Scheme::Lagrangian(Lagrangian::new(search, map.prepare(&body.reference)))
@@ -68,6 +70,8 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
             body,
             map,
             options,
+            redraw,
+            drawn_for: 1,
             sample_numbers,
             samples,
             scheme,
@@ -117,7 +121,7 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
         self.step
     }
 
-    /// Numbers of the sample points.
+    /// Numbers of the sample points, ascending; where every step has its own, those of the step [taken](Self::step), tried or [read](Self::reading) last, and before all steps those of the first.
     pub fn samples(&self) -> &[u32] {
         &self.sample_numbers
     }

@@ -13,6 +13,8 @@ pub enum Search {
     /// Neighbour lists (Verlet 1967; ours): only points that were within (3 + skin) h of a sample point along every axis when the list was made are evaluated. A
     /// point that touches a node of a sample point is within 3 h of it. The list is made anew, from all points, once a point in it has moved by half the
     /// skin relative to its sample point; a point outside would have had to move by the whole skin between two who have not.
+    ///
+    /// Sample points that are drawn anew take the points that were near them when all points were evaluated last.
     Lists {
         /// Multiple of h, > 0.
         skin: f64,

@@ -19,7 +19,8 @@ pub struct Reading<const D: usize> {
 }
 
 impl<const D: usize> ReducedModel<'_, D> {
-    /// What the step from `time` on would read at the sample points if x̂ and v̂ were these; the model's own coordinates and time stay.
+    /// What the step from `time` on would read at the sample points if x̂ and v̂ were these; the model's own coordinates and time stay. Where every step has its own sample points,
+    /// they are those of the step that is read.
     ///
     /// # Errors
     /// As [`step`](Self::step).

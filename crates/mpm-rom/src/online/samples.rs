@@ -7,6 +7,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 
 use super::OnlineError;
+use super::redraw::Redraw;
 
 /// Sample points on each kinematic region, at least; all of a region that has fewer (ours).
 pub(super) const ON_EACH_REGION: usize = 5;
@@ -16,11 +17,18 @@ pub(super) const ON_EACH_REGION: usize = 5;
 pub enum SampleChoice {
     /// Every material point.
     All,
-    /// So many, drawn evenly: five from each kinematic region, the others from the points that are in none. Once for a run (ours: the paper draws them anew in every step).
+    /// So many, drawn evenly: five from each kinematic region, the others from the points that are in none. Once for a run (ours).
     Drawn {
         /// |𝒫|.
         count: usize,
         /// Seed of the draw.
+        seed: u64,
+    },
+    /// As many from each region, but drawn anew in every step (the paper's, §3.2.1): over many steps all of the body is seen. The draw of a step hangs on the seed and the number of the step alone.
+    Redrawn {
+        /// |𝒫|.
+        count: usize,
+        /// Seed of the draws.
         seed: u64,
     },
     /// As many from each region, but each point the farthest at rest from those before it, the first one drawn (ours): few points then see all of the body.
@@ -37,7 +45,7 @@ pub enum SampleChoice {
 }
 
 impl SampleChoice {
-    /// The numbers of the sample points among material points with these reference positions, ascending.
+    /// The numbers of the sample points among material points with these reference positions, ascending; those of the first step where every step has its own.
     ///
     /// # Errors
     /// [`OnlineError::TooFewSamples`] for fewer than ⌈r / D⌉ beside those of the regions, whose motion is given, or none; [`OnlineError::TooManySamples`]; for given numbers [`OnlineError::Samples`] and
@@ -59,6 +67,10 @@ impl SampleChoice {
             Self::All => return given((0..points as u32).collect()),
             Self::Given(numbers) => return given(numbers.clone()),
             Self::Weighted(weighted) => return given(weighted.iter().map(|(number, _)| *number).collect()),
+            Self::Redrawn { .. } => {
+                let redraw = Redraw::of(self, points, coordinates, kinematics)?;
+                return Ok(redraw.map(|mut redraw| redraw.of_step(1)).unwrap_or_default());
+            }
             Self::Drawn { count, seed } | Self::Spread { count, seed } => (*count, *seed),
         };
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
@@ -202,6 +214,7 @@ mod tests {
         assert!(points[3] == 25 || points[3] == 75);
         for choice in [
             SampleChoice::Drawn { count: 40, seed: 3 },
+            SampleChoice::Redrawn { count: 40, seed: 3 },
             SampleChoice::Spread { count: 40, seed: 3 },
         ] {
             let chosen = choice.choose(&line, 6, &Kinematics::default()).expect("enough");

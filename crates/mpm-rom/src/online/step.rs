@@ -8,7 +8,8 @@ use super::instant::Instant;
 use super::lagrangian::Lagrangian;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
-use super::{OnlineError, Options, Quadrature, ReducedBody, Update};
+use super::redraw::Redraw;
+use super::{OnlineError, Options, Quadrature, ReducedBody, SampleWeights, Update};
 use crate::deformation_map::{DeformationMap, MaterialPoints};
 use crate::manifold::{Evaluation, Wanted};
 
@@ -17,6 +18,9 @@ pub struct ReducedModel<'a, const D: usize> {
     pub(super) body: ReducedBody<D>,
     pub(super) map: DeformationMap<'a, D>,
     pub(super) options: Options,
+    /// Where 𝒫 is drawn anew in every step, what from; and the step that it has been drawn for.
+    pub(super) redraw: Option<Redraw>,
+    pub(super) drawn_for: u64,
     /// Numbers of the sample points 𝒫 and what the map needs of them.
     pub(super) sample_numbers: Vec<u32>,
     pub(super) samples: MaterialPoints<D>,
@@ -71,6 +75,7 @@ impl<const D: usize> ReducedModel<'_, D> {
 
     /// (1) to (4): the velocities of the sample points.
     pub(super) fn find_velocities(&mut self) -> Result<StepReport, OnlineError> {
+        self.draw_samples();
         self.place_samples();
         self.activate_nodes()?;
         let mut report = self.place_quadrature()?;
@@ -79,6 +84,24 @@ impl<const D: usize> ReducedModel<'_, D> {
         report.nodes = self.nodes.places.len();
         report.quadrature_points = self.quadrature.len();
         Ok(report)
+    }
+
+    /// (1) 𝒫 of this step, where every step has its own, with what hangs on it.
+    fn draw_samples(&mut self) {
+        let Some(redraw) = self.redraw.as_mut().filter(|_| self.drawn_for != self.step) else {
+            return;
+        };
+        self.drawn_for = self.step;
+        self.sample_numbers = redraw.of_step(self.step);
+        let numbers = &self.sample_numbers;
+        match &self.scheme {
+            Scheme::Lagrangian(scheme) => scheme.select(numbers, &mut self.samples),
+            Scheme::Eulerian(_) => self.samples = self.map.prepare(&self.body.reference_of(numbers)),
+        }
+        let weights = self.options.weights;
+        if weights != SampleWeights::Equal {
+            self.coordinates.weigh(weights.of(&self.body.reference, numbers));
+        }
     }
 
     /// (1) x_p = g(X_p, x̂_n) of the sample points, with ∂g/∂x̂ for (5).
@@ -111,6 +134,7 @@ impl<const D: usize> ReducedModel<'_, D> {
             step: self.step,
             reference: &self.samples.reference,
             samples: &self.evaluation,
+            redrawn: self.redraw.as_ref().map(|_| &*self.sample_numbers),
             inverted: self.options.inverted,
         };
         let (body, nodes, out) = (&self.body, &self.nodes, &mut self.quadrature);

@@ -51,6 +51,7 @@ fn advance_frame(model: &mut ReducedModel<'_, 2>) -> Result<StepReport, OnlineEr
 fn free_fall_is_exact_with_every_scheme() {
     let text = BLOCK.replace("gravity = [0.0, 0.0]", "gravity = [3.0, -10.0]");
     let few = SampleChoice::Drawn { count: 3, seed: 4 };
+    let redrawn = SampleChoice::Redrawn { count: 3, seed: 4 };
     for quadrature in [
         LAGRANGIAN,
         EULERIAN,
@@ -59,7 +60,7 @@ fn free_fall_is_exact_with_every_scheme() {
         },
     ] {
         for update in [Update::VelocityOnly, Update::PositionVelocity] {
-            for samples in [SampleChoice::All, few.clone()] {
+            for samples in [SampleChoice::All, few.clone(), redrawn.clone()] {
                 let mut model = model(&text, Fields::translations(), options(samples, quadrature, update));
                 for _ in 0..3 {
                     advance_frame(&mut model).expect("a step");
@@ -186,6 +187,7 @@ fn neighbour_lists_find_what_the_search_of_all_points_finds() {
 }
 
 mod moving;
+mod redrawn;
 mod refused;
 
 #[test]

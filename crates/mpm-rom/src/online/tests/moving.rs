@@ -111,7 +111,15 @@ fn held_nodes_that_turn_carry_the_body() {
 /// A search that begins anew in every step and goes on to rounding is the oracle for points that are followed.
 #[test]
 fn points_of_space_are_followed_to_where_a_search_finds_them() {
-    let samples = SampleChoice::Drawn { count: 12, seed: 1 };
+    for samples in [
+        SampleChoice::Drawn { count: 12, seed: 1 },
+        SampleChoice::Redrawn { count: 12, seed: 1 },
+    ] {
+        assert_followed(&samples);
+    }
+}
+
+fn assert_followed(samples: &SampleChoice) {
     let run = |fresh: bool| {
         let chosen = options(samples.clone(), EULERIAN, Update::VelocityOnly);
         let mut model = model(&held_and_pulled(), Fields::bending(4), chosen);

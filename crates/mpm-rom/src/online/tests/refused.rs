@@ -12,6 +12,7 @@ fn bad_input_is_an_error_with_its_name() {
         model.err().expect("refused").to_string()
     };
     let drawn = |count| SampleChoice::Drawn { count, seed: 0 };
+    let redrawn = |count| SampleChoice::Redrawn { count, seed: 0 };
     let members = body(&held).kinematics.regions()[0].members.clone();
     let free = (0..128).filter(|p| !members.contains(&(*p as usize))).take(9);
     let mut four_held: Vec<u32> = free.chain(members.iter().take(4).map(|&p| p as u32)).collect();
@@ -26,6 +27,18 @@ fn bad_input_is_an_error_with_its_name() {
         (
             refused(&held, drawn(7), LAGRANGIAN),
             "7 sample points, at least 8 are needed",
+        ),
+        (
+            refused(BLOCK, redrawn(2), EULERIAN),
+            "2 sample points, at least 3 are needed",
+        ),
+        (
+            refused(&held, redrawn(7), LAGRANGIAN),
+            "7 sample points, at least 8 are needed",
+        ),
+        (
+            refused(BLOCK, redrawn(129), LAGRANGIAN),
+            "129 sample points of 128 material points",
         ),
         (
             refused(&held, SampleChoice::Given(four_held), LAGRANGIAN),

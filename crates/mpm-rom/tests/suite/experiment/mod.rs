@@ -264,6 +264,45 @@ fn weights_and_frames_between_those_of_the_scene_have_a_part_in_a_run() {
 }
 
 #[test]
+fn points_drawn_anew_in_every_step_are_near_the_full_order_run() {
+    let (directory, file) = files();
+    let text = EXPERIMENT
+        .replace(
+            "samples = [20, \"all\"]",
+            "samples = [12, 64, \"all\"], choice = [\"redrawn\"]",
+        )
+        .replace("manifold = [\"network\", \"linear\"]", "manifold = [\"linear\"]")
+        .replace("[\"lagrangian\"]", "[\"lagrangian\", \"eulerian\"]");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    train_one(&experiment, &out);
+    let rows = run::<2>(&experiment, &out, &mut |_, _| true).expect("run");
+    assert_eq!(rows.len(), 12);
+    for row in &rows {
+        assert_eq!(row.outcome, "finished");
+        assert!(row.error.is_some_and(|error| error < 5.0), "{row:?}");
+    }
+    let of = |samples| rows.iter().filter(move |row| row.choice.samples == samples);
+    for (drawn, all) in of(SampleCount::Drawn(64)).zip(of(SampleCount::All)) {
+        assert_eq!((drawn.choice.way(), all.choice.way()), ("redrawn", "all"));
+        assert_eq!((drawn.samples, &drawn.frames), (64, &all.frames), "all of 64 points");
+    }
+    assert!(
+        of(SampleCount::Drawn(12))
+            .zip(of(SampleCount::All))
+            .all(|(few, all)| few.frames != all.frames)
+    );
+    // Not every step has what all coordinates need.
+    let refused = Experiment::parse(&text.replace("[12,", "[5,"), &file).expect("sound");
+    let error = run::<2>(&refused, &out, &mut |_, _| true).expect_err("too few");
+    let expected = format!(
+        "{}, run.samples: 5 sample points, at least 6 are needed",
+        file.display()
+    );
+    assert!(error.to_string().starts_with(&expected), "{error}");
+}
+
+#[test]
 fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own() {
     let (directory, file) = files();
     let denser = SCENE.replace("material = \"rubber\"", "material = \"rubber\"\nparticles_per_axis = 3");
