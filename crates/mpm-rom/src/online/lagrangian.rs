@@ -103,7 +103,7 @@ impl<const D: usize> Lagrangian<D> {
         let seen = numbers.iter().filter_map(|&p| self.seen.get(p as usize));
         self.seen_samples.clear();
         self.seen_samples.extend(seen);
-        self.list.rebuild(&self.seen, &self.seen_samples, spacing, skin);
+        self.list.relist(&self.seen, &self.seen_samples, spacing, skin);
         self.candidates.select(&self.all, &self.list.points);
     }
 

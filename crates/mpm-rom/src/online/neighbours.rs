@@ -28,36 +28,64 @@ pub(super) struct NeighbourList<const D: usize> {
     pub points: Vec<u32>,
     /// For each the nearest sample point, and where it was seen from there.
     nearest: Vec<(u32, [f64; D])>,
-    /// Sample points by cells as wide as the reach.
+    /// All points, and the sample points, by cells as wide as the reach.
+    sorted: Vec<([i64; D], u32)>,
     cells: Vec<([i64; D], u32)>,
+    /// The sample points of the 3ᴰ cells around one, and the list in the order of cells.
+    close: Vec<u32>,
+    found: Vec<(u32, (u32, [f64; D]))>,
+}
+
+fn cell_of<const D: usize>(x: &[f64; D], width: f64) -> [i64; D] {
+    x.map(|c| (c / width).floor() as i64)
 }
 
 impl<const D: usize> NeighbourList<D> {
     /// The list for these positions of all points and of the sample points.
     pub fn rebuild(&mut self, positions: &[[f64; D]], samples: &[[f64; D]], spacing: f64, skin: f64) {
         let reach = (WIDTH as f64 + skin) * spacing;
-        let cell_of = |x: &[f64; D]| x.map(|c| (c / reach).floor() as i64);
+        self.sorted.clear();
+        self.sorted
+            .extend(positions.iter().zip(0..).map(|(x, point)| (cell_of(x, reach), point)));
+        self.sorted.sort_unstable();
+        self.relist(positions, samples, spacing, skin);
+    }
+
+    /// The list of other sample points, for the same positions of all points as when it was [made](Self::rebuild).
+    pub fn relist(&mut self, positions: &[[f64; D]], samples: &[[f64; D]], spacing: f64, skin: f64) {
+        let reach = (WIDTH as f64 + skin) * spacing;
         self.cells.clear();
-        self.cells.extend(samples.iter().zip(0..).map(|(x, s)| (cell_of(x), s)));
+        self.cells
+            .extend(samples.iter().zip(0..).map(|(x, s)| (cell_of(x, reach), s)));
         self.cells.sort_unstable();
-        self.points.clear();
-        self.nearest.clear();
-        for (x, point) in positions.iter().zip(0..) {
-            let mut best: Option<(f64, u32, [f64; D])> = None;
-            for cell in around(cell_of(x)) {
+        self.found.clear();
+        for members in self.sorted.chunk_by(|a, b| a.0 == b.0) {
+            self.close.clear();
+            for cell in around(members[0].0) {
                 let start = self.cells.partition_point(|(other, _)| *other < cell);
-                for &(_, s) in self.cells[start..].iter().take_while(|(other, _)| *other == cell) {
-                    let offset = vector::subtract(x, &samples[s as usize]);
+                let there = self.cells[start..].iter().take_while(|(other, _)| *other == cell);
+                self.close.extend(there.map(|(_, s)| *s));
+            }
+            for &(_, point) in members {
+                let mut best: Option<(f64, u32, [f64; D])> = None;
+                for &s in &self.close {
+                    let offset = vector::subtract(&positions[point as usize], &samples[s as usize]);
                     let distance = vector::maximum_norm(&offset);
                     if distance <= reach && best.is_none_or(|(least, ..)| distance < least) {
                         best = Some((distance, s, offset));
                     }
                 }
+                if let Some((_, s, offset)) = best {
+                    self.found.push((point, (s, offset)));
+                }
             }
-            if let Some((_, s, offset)) = best {
-                self.points.push(point);
-                self.nearest.push((s, offset));
-            }
+        }
+        self.found.sort_unstable_by_key(|(point, _)| *point);
+        self.points.clear();
+        self.nearest.clear();
+        for &(point, nearest) in &self.found {
+            self.points.push(point);
+            self.nearest.push(nearest);
         }
     }
 
