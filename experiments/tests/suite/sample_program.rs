@@ -56,6 +56,61 @@ for line in sys.stdin:
     print('' if what == 'score' else -sum(x) if min(x) >= 0 else '-inf', flush=True)
 ";
 
+/// A normal law whose score has the wrong sign.
+const UPHILL: &str = "
+import sys
+for line in sys.stdin:
+    what, *x = line.split()
+    x = [float(c) for c in x]
+    print(' '.join(map(str, x)) if what == 'score' else -0.5 * sum(c * c for c in x), flush=True)
+";
+
+/// No number of steps makes the material follow it.
+#[test]
+fn options_of_moves_are_said_to_be_idle_where_the_score_is_no_gradient() {
+    if shown().is_none() {
+        return;
+    }
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("uphill.py"), UPHILL).unwrap();
+    let output = sample_with("--steps 8 --spacing 0.5", directory.path(), "python3 uphill.py", "1");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(value(&output, "outcome").unwrap(), "stalled");
+    let said = stderr(&output);
+    let expected = "--steps, --spacing: without effect: none is moved where";
+    assert!(said.starts_with(expected), "{said}");
+}
+
+/// Half of a normal law, which has no score within 0.004 of its edge, where some of 1,000 particles are.
+const HALF: &str = "
+import sys
+for line in sys.stdin:
+    what, *x = line.split()
+    x = [float(c) for c in x]
+    score = [-x[0] - 1, -x[1]] if x[0] > 0.004 else ['nan', 'nan']
+    density = -0.5 * (x[0] * x[0] + x[1] * x[1]) - x[0] if x[0] > 0 else '-inf'
+    print(*(score if what == 'score' else [density]), flush=True)
+";
+
+/// Particles of the pool were not pulled anywhere.
+#[test]
+fn scores_that_are_not_finite_beside_an_edge_move_no_particle() {
+    if shown().is_none() {
+        return;
+    }
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("half.py"), HALF).unwrap();
+    let output = sample(directory.path(), "python3 half.py", "1");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(value(&output, "steps").unwrap(), "0");
+    let said = stderr(&output);
+    assert!(
+        said.starts_with("scores that were not finite at the particles: "),
+        "{said}"
+    );
+    assert!(!said.contains("pulled back"), "{said}");
+}
+
 /// Differences across the edge are no scores of the particles beside it.
 #[test]
 fn a_density_with_an_edge_has_diagnostics() {

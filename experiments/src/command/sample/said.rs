@@ -19,16 +19,21 @@ fn warn_of_rest(arguments: &Arguments, outcome: &Outcome) {
     }
     let has_rounds = arguments.options.rounds.is_none_or(|rounds| rounds.get() > 0);
     let is_weighted = arguments.options.weighted == Some(Switch::On);
+    // Scores at particles that rounds may move have a residual.
+    let is_doubtful = has_rounds && outcome.residual.is_none();
     let why = match arguments.options.weighted {
         Some(Switch::On) => "weighted particles are not moved",
         _ if !has_rounds => "none is moved with --rounds 0",
+        _ if is_doubtful => {
+            "none is moved where log p is noise or may have no finite integral, or the score is not its gradient"
+        }
         _ => {
             "the weighed evaluations served all particles, and none was moved; --steps or --rounds lets the material try"
         }
     };
     let is_idle = |name: &str| match name {
-        "steps" | "moment-correction" => is_weighted || !has_rounds,
-        "rounds" => is_weighted && has_rounds,
+        "steps" | "moment-correction" => is_weighted || is_doubtful || !has_rounds,
+        "rounds" => (is_weighted || is_doubtful) && has_rounds,
         name => is_among(OF_MOVES, name),
     };
     notice_idle(arguments, is_idle, why);
@@ -70,17 +75,26 @@ fn notice_idle(arguments: &Arguments, is_idle: impl Fn(&str) -> bool, why: &str)
     }
 }
 
+/// Says how many scores were not finite, and what was done about them.
+fn warn_of_scores(outcome: &Outcome) {
+    let (where_found, remedy) = match outcome.steps {
+        0 => (
+            "at the particles",
+            "residual and moments by scores count a pull towards the centre of the frame in their place",
+        ),
+        _ => ("on the way", "the particles were pulled back to where they are"),
+    };
+    if outcome.scores_replaced > 0 {
+        let count = outcome.scores_replaced;
+        console::notice(&format!("scores that were not finite {where_found}: {count}; {remedy}"));
+    }
+}
+
 /// What a user should know before trusting the particles, whose coordinates have these names, or none.
 pub fn warn(arguments: &Arguments, outcome: &Outcome, names: &[String]) {
     warn_of_rest(arguments, outcome);
     warn_of_idle(arguments, outcome);
-    if outcome.scores_replaced > 0 {
-        let (count, remedy) = (
-            outcome.scores_replaced,
-            "the particles were pulled back to where they are",
-        );
-        console::notice(&format!("{count} scores on the way were not finite; {remedy}"));
-    }
+    warn_of_scores(outcome);
     let found = outcome.certificate.as_ref().map(|certificate| &certificate.outcome);
     if let Some((found, reason)) = found.and_then(|found| Some((found, found.reason_naming(names)?))) {
         console::notice(&format!("{}: {reason}", found.name()));
