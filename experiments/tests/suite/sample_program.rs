@@ -65,18 +65,24 @@ for line in sys.stdin:
     print(' '.join(map(str, x)) if what == 'score' else -0.5 * sum(c * c for c in x), flush=True)
 ";
 
+/// What a run with flags on a program of this text prints, and what it says; nothing where there is no Python.
+fn of_source(flags: &str, source: &str) -> Option<(Output, String)> {
+    shown()?;
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("own.py"), source).unwrap();
+    let output = sample_with(flags, directory.path(), "python3 own.py", "1");
+    let said = stderr(&output);
+    assert!(output.status.success(), "{said}");
+    Some((output, said))
+}
+
 /// No number of steps makes the material follow it.
 #[test]
 fn options_of_moves_are_said_to_be_idle_where_the_score_is_no_gradient() {
-    if shown().is_none() {
+    let Some((output, said)) = of_source("--steps 8 --spacing 0.5", UPHILL) else {
         return;
-    }
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("uphill.py"), UPHILL).unwrap();
-    let output = sample_with("--steps 8 --spacing 0.5", directory.path(), "python3 uphill.py", "1");
-    assert!(output.status.success(), "{}", stderr(&output));
+    };
     assert_eq!(value(&output, "outcome").unwrap(), "stalled");
-    let said = stderr(&output);
     let expected = "--steps, --spacing: without effect: none is moved where";
     assert!(said.starts_with(expected), "{said}");
 }
@@ -95,20 +101,14 @@ for line in sys.stdin:
 /// Particles of the pool were not pulled anywhere.
 #[test]
 fn scores_that_are_not_finite_beside_an_edge_move_no_particle() {
-    if shown().is_none() {
-        return;
+    if let Some((output, said)) = of_source("", HALF) {
+        assert_eq!(value(&output, "steps").unwrap(), "0");
+        assert!(
+            said.starts_with("scores that were not finite at the particles: "),
+            "{said}"
+        );
+        assert!(!said.contains("pulled back"), "{said}");
     }
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("half.py"), HALF).unwrap();
-    let output = sample(directory.path(), "python3 half.py", "1");
-    assert!(output.status.success(), "{}", stderr(&output));
-    assert_eq!(value(&output, "steps").unwrap(), "0");
-    let said = stderr(&output);
-    assert!(
-        said.starts_with("scores that were not finite at the particles: "),
-        "{said}"
-    );
-    assert!(!said.contains("pulled back"), "{said}");
 }
 
 /// Differences across the edge are no scores of the particles beside it.

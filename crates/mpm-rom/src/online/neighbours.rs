@@ -40,24 +40,24 @@ fn cell_of<const D: usize>(x: &[f64; D], width: f64) -> [i64; D] {
     x.map(|c| (c / width).floor() as i64)
 }
 
+/// The numbers of points in the order of their cells, in the place of what is there.
+fn sort_by_cell<const D: usize>(sorted: &mut Vec<([i64; D], u32)>, points: &[[f64; D]], width: f64) {
+    sorted.clear();
+    sorted.extend(points.iter().zip(0..).map(|(x, point)| (cell_of(x, width), point)));
+    sorted.sort_unstable();
+}
+
 impl<const D: usize> NeighbourList<D> {
     /// The list for these positions of all points and of the sample points.
     pub fn rebuild(&mut self, positions: &[[f64; D]], samples: &[[f64; D]], spacing: f64, skin: f64) {
-        let reach = (WIDTH as f64 + skin) * spacing;
-        self.sorted.clear();
-        self.sorted
-            .extend(positions.iter().zip(0..).map(|(x, point)| (cell_of(x, reach), point)));
-        self.sorted.sort_unstable();
+        sort_by_cell(&mut self.sorted, positions, (WIDTH as f64 + skin) * spacing);
         self.relist(positions, samples, spacing, skin);
     }
 
     /// The list of other sample points, for the same positions of all points as when it was [made](Self::rebuild).
     pub fn relist(&mut self, positions: &[[f64; D]], samples: &[[f64; D]], spacing: f64, skin: f64) {
         let reach = (WIDTH as f64 + skin) * spacing;
-        self.cells.clear();
-        self.cells
-            .extend(samples.iter().zip(0..).map(|(x, s)| (cell_of(x, reach), s)));
-        self.cells.sort_unstable();
+        sort_by_cell(&mut self.cells, samples, reach);
         self.found.clear();
         for members in self.sorted.chunk_by(|a, b| a.0 == b.0) {
             self.close.clear();

@@ -266,13 +266,14 @@ fn weights_and_frames_between_those_of_the_scene_have_a_part_in_a_run() {
 #[test]
 fn points_drawn_anew_in_every_step_are_near_the_full_order_run() {
     let (directory, file) = files();
-    let text = EXPERIMENT
-        .replace(
-            "samples = [20, \"all\"]",
-            "samples = [12, 64, \"all\"], choice = [\"redrawn\"]",
-        )
-        .replace("manifold = [\"network\", \"linear\"]", "manifold = [\"linear\"]")
-        .replace("[\"lagrangian\"]", "[\"lagrangian\", \"eulerian\"]");
+    let changes = [
+        ("[20, \"all\"]", "[12, 64, \"all\"], choice = [\"redrawn\"]"),
+        ("[\"network\", \"linear\"]", "[\"linear\"]"),
+        ("[\"lagrangian\"]", "[\"lagrangian\", \"eulerian\"]"),
+    ];
+    let text = changes
+        .iter()
+        .fold(EXPERIMENT.to_owned(), |text, (from, to)| text.replace(from, to));
     let experiment = Experiment::parse(&text, &file).expect("sound");
     let out = directory.path().join("out");
     train_one(&experiment, &out);
