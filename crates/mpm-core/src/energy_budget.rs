@@ -60,22 +60,19 @@ impl EnergyBudget {
             let each = (0..nodes.len()).map(|i| 0.5 * nodes[i].mass() * dot(&impulse(i), &way(i)));
             each.sum()
         };
-        let work = |from: &[[f64; D]], to: &[[f64; D]]| {
-            sum_of(&|i| subtract(&to[i], &from[i]), &|i| add(&brought[i], &last[i]))
-        };
-        // Before damping, e^(γΔt) v.
+        let way = |i: usize| add(&brought[i], &last[i]);
+        // What velocities at a stage were before damping, e^(γΔt) v.
         let rise = 1.0 / damping.max(f64::MIN_POSITIVE);
-        let undamped = |stage: usize| -> Vec<[f64; D]> { stages[stage].iter().map(|v| scale(v, rise)).collect() };
-        let [forced, pressed, slowed, bounded] = [1, 2, 3, 4].map(undamped);
-        self.forces += work(brought, &forced);
-        self.contact += work(&forced, &pressed);
-        self.friction += work(&pressed, &slowed);
-        self.boundary += work(&slowed, &bounded);
-        self.damping += work(&bounded, last);
+        let undamped = |stage: usize, i: usize| scale(&stages[stage][i], rise);
+        let forces = |i: usize| subtract(&undamped(1, i), &brought[i]);
+        let after = |stage: usize| sum_of(&|i| subtract(&undamped(stage + 1, i), &undamped(stage, i)), &way);
+        self.forces += sum_of(&forces, &way);
+        self.contact += after(1);
+        self.friction += after(2);
+        self.boundary += after(3);
+        self.damping += sum_of(&|i| subtract(&last[i], &undamped(4, i)), &way);
         if deforms_last {
-            self.time_integration += sum_of(&|i| subtract(&forced[i], &brought[i]), &|i| {
-                subtract(&last[i], &brought[i])
-            });
+            self.time_integration += sum_of(&forces, &|i| subtract(&last[i], &brought[i]));
         }
     }
 }
