@@ -181,14 +181,17 @@ fn fill<const D: usize>(
     let mesh = || of_shape::<D>(&format!("{field}.shape"), &body.shape, step);
     match body.fill {
         FillKind::Regular => {
-            // A lattice of its own begins at the shape, that of a grid at the grid's first node.
-            let own = body.spacing.is_some() || matches!(background, Background::Mesh { .. });
-            let origin = if own {
-                shape.bounds().finite_within(room).lower
-            } else {
-                room.lower
+            // A lattice of its own begins at the shape, and ends there where the mesh says about how far apart particles are; that of a grid begins at the grid's first node.
+            let bounds = shape.bounds().finite_within(room);
+            let (origin, steps) = match (body.spacing, background) {
+                (Some(_), _) => (bounds.lower, [step; D]),
+                (None, Background::Mesh { .. }) => (
+                    bounds.lower,
+                    bounds.sides().map(|side| side / (side / step).round().max(1.0)),
+                ),
+                (None, Background::Grid { .. }) => (room.lower, [step; D]),
             };
-            regular(&body.name, shape, &origin, step, room).map(|filling| of_volume(filling, shape, room))
+            regular(&body.name, shape, &origin, &steps, room).map(|filling| of_volume(filling, shape, room))
         }
         FillKind::PoissonDisk => poisson_disk(&body.name, shape, step, room, seed),
         FillKind::Rings => rings(&body.name, shape, step, room),

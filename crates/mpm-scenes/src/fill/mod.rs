@@ -40,8 +40,8 @@ impl<const D: usize> Filling<D> {
 const MOST_POINTS: f64 = 5e8;
 
 /// Whole numbers of steps that cover the sides of a box, unless there are more than `most` of them; `body` is whose they are.
-fn counts<const D: usize>(body: &str, sides: &[f64; D], step: f64, most: f64) -> Result<[u64; D], SceneFault> {
-    let counts = sides.map(|side| (side / step).ceil().max(0.0));
+fn counts<const D: usize>(body: &str, sides: &[f64; D], steps: &[f64; D], most: f64) -> Result<[u64; D], SceneFault> {
+    let counts: [f64; D] = std::array::from_fn(|a| (sides[a] / steps[a]).ceil().max(0.0));
     let product: f64 = counts.iter().product();
     if product <= most {
         return Ok(counts.map(|count| count as u64));
@@ -49,7 +49,7 @@ fn counts<const D: usize>(body: &str, sides: &[f64; D], step: f64, most: f64) ->
     Err(SceneFault::TooManyPoints {
         body: body.to_owned(),
         key: "spacing",
-        distance: step,
+        distance: steps.iter().copied().fold(f64::INFINITY, f64::min),
         most,
     })
 }

@@ -34,7 +34,7 @@ pub fn poisson_disk<const D: usize>(
 ) -> Result<Filling<D>, SceneFault> {
     let bounds = shape.bounds().finite_within(room);
     let radius = step * points_per_radius::<D>().powf(1.0 / D as f64);
-    counts(body, &bounds.sides(), step, MOST_DISKS)?;
+    counts(body, &bounds.sides(), &[step; D], MOST_DISKS)?;
     let mut disks = Disks::new(body, bounds, radius)?;
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     for cell in 0..disks.cells.len() {
@@ -68,7 +68,7 @@ pub(super) fn volume_within<const D: usize>(
 ) -> Result<f64, SceneFault> {
     match shape.volume() {
         Some(volume) if shape.bounds() == *bounds => Ok(volume),
-        _ => Ok(super::regular(body, shape, &bounds.lower, step, bounds)?.volume()),
+        _ => Ok(super::regular(body, shape, &bounds.lower, &[step; D], bounds)?.volume()),
     }
 }
 
@@ -87,7 +87,7 @@ struct Disks<const D: usize> {
 impl<const D: usize> Disks<D> {
     fn new(body: &str, bounds: Bounds<D>, radius: f64) -> Result<Self, SceneFault> {
         let width = radius / (D as f64).sqrt();
-        let counts = counts(body, &bounds.sides(), width, MOST_POINTS)?;
+        let counts = counts(body, &bounds.sides(), &[width; D], MOST_POINTS)?;
         Ok(Self {
             origin: bounds.lower,
             radius,

@@ -29,7 +29,7 @@ pub fn rings<const D: usize>(
     let bounds = shape.bounds().finite_within(room);
     let sides = bounds.sides();
     let centre: [f64; D] = std::array::from_fn(|a| 0.5 * (bounds.lower[a] + bounds.upper[a]));
-    counts(body, &sides, step, MOST_POINTS)?;
+    counts(body, &sides, &[step; D], MOST_POINTS)?;
     let far = centre.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
     let rounding = |length: f64| 1e-9 * length + 8.0 * f64::EPSILON * far;
     let outer = match sides.get(..2) {
