@@ -1,4 +1,4 @@
-//! Scenes that benchmarks share. Criterion benchmarks live in `benches/benches`, plain ones in `benches/src/bin`, beside a comparison of two ways to load a mesh (`traction_as_stress`): these are built
+//! Scenes that benchmarks share. Criterion benchmarks live in `benches/benches`, plain ones in `benches/src/bin`, built
 //! without parvi and criterion, in seconds.
 
 pub mod arguments;

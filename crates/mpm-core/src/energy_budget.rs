@@ -1,6 +1,6 @@
 //! Where kinetic energy goes in a step.
 
-use mpm_tensor::vector::{add, dot, scale, subtract};
+use mpm_tensor::vector::{accumulate, add, dot, scale, subtract};
 
 use crate::transfer::{GridNode, Transfer};
 use crate::{Basis, BodyForce, Boundary, Medium, Mpm, StressUpdate, StressWork};
@@ -49,11 +49,11 @@ impl EnergyBudget {
     fn add_works<N: GridNode<D>, const D: usize>(
         &mut self,
         nodes: &[N],
-        stages: &[Vec<[f64; D]>],
+        Stages { velocities, pushed }: &Stages<D>,
         damping: f64,
         deforms_last: bool,
     ) {
-        let [brought, _, _, _, last] = stages else {
+        let [brought, _, _, _, last] = &velocities[..] else {
             return;
         };
         let sum_of = |impulse: &dyn Fn(usize) -> [f64; D], way: &dyn Fn(usize) -> [f64; D]| -> f64 {
@@ -63,13 +63,17 @@ impl EnergyBudget {
         let way = |i: usize| add(&brought[i], &last[i]);
         // What velocities at a stage were before damping, e^(γΔt) v.
         let rise = 1.0 / damping.max(f64::MIN_POSITIVE);
-        let undamped = |stage: usize, i: usize| scale(&stages[stage][i], rise);
-        let forces = |i: usize| subtract(&undamped(1, i), &brought[i]);
+        let undamped = |stage: usize, i: usize| scale(&velocities[stage][i], rise);
+        let pushed = |i: usize| match pushed.get(i) {
+            Some(impulse) if nodes[i].mass().is_normal() => scale(impulse, 1.0 / nodes[i].mass()),
+            _ => [0.0; D],
+        };
+        let forces = |i: usize| subtract(&subtract(&undamped(1, i), &brought[i]), &pushed(i));
         let after = |stage: usize| sum_of(&|i| subtract(&undamped(stage + 1, i), &undamped(stage, i)), &way);
         self.forces += sum_of(&forces, &way);
         self.contact += after(1);
         self.friction += after(2);
-        self.boundary += after(3);
+        self.boundary += sum_of(&pushed, &way) + after(3);
         self.damping += sum_of(&|i| subtract(&last[i], &undamped(4, i)), &way);
         if deforms_last {
             self.time_integration += sum_of(&forces, &|i| subtract(&last[i], &brought[i]));
@@ -88,10 +92,20 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         stages
     }
 
+    /// Add `sign` times the impulses that the nodes have, before they are velocities: the boundary's forces are what these are more afterwards.
+    pub(crate) fn record_impulses(&self, stages: &mut Stages<D>, sign: f64) {
+        if self.energy_budget.is_some() {
+            stages.pushed.resize(self.nodes.as_slice().len(), [0.0; D]);
+            for (sum, node) in stages.pushed.iter_mut().zip(self.nodes.as_slice()) {
+                accumulate(sum, sign, node.velocity());
+            }
+        }
+    }
+
     /// Something has given the nodes impulses.
     pub(crate) fn record(&self, stages: &mut Stages<D>) {
         if self.energy_budget.is_some() {
-            if T::INCREMENTAL && stages.0.is_empty() {
+            if T::INCREMENTAL && stages.velocities.is_empty() {
                 stages.push(self.nodes.as_slice(), GridNode::velocity_brought);
             }
             stages.push(self.nodes.as_slice(), GridNode::velocity);
@@ -102,7 +116,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     pub(crate) fn account(&mut self, stages: &Stages<D>, damping: f64) {
         if let Some(budget) = &mut self.energy_budget {
             let deforms_last = M::DEFORMS && self.stress_update == StressUpdate::Last;
-            budget.add_works(self.nodes.as_slice(), &stages.0, damping, deforms_last);
+            budget.add_works(self.nodes.as_slice(), stages, damping, deforms_last);
             if deforms_last {
                 self.stress_works.resize(self.particles.len(), StressWork::default());
             }
@@ -124,12 +138,17 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     }
 }
 
-/// The velocities of the nodes at several moments of a step.
+/// What becomes of the nodes in a step.
 #[derive(Default)]
-pub(crate) struct Stages<const D: usize>(Vec<Vec<[f64; D]>>);
+pub(crate) struct Stages<const D: usize> {
+    /// Their velocities at several moments.
+    velocities: Vec<Vec<[f64; D]>>,
+    /// Impulses of the boundary's forces.
+    pushed: Vec<[f64; D]>,
+}
 
 impl<const D: usize> Stages<D> {
     fn push<N: GridNode<D>>(&mut self, nodes: &[N], velocity: impl Fn(&N) -> &[f64; D]) {
-        self.0.push(nodes.iter().map(|node| *velocity(node)).collect());
+        self.velocities.push(nodes.iter().map(|node| *velocity(node)).collect());
     }
 }

@@ -66,7 +66,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
     /// The velocities of the nodes without any force: mass and momentum alone, then the boundary.
     pub(crate) fn momentum_to_grid(&mut self, dt: f64) {
         self.momentum_of_particles(dt);
-        self.constrain_grid(dt, 0.0);
+        self.constrain_grid(dt);
     }
 
     /// The velocities v_iⁿ of the nodes that the particles bring.

@@ -3,10 +3,11 @@
 use mpm_tensor::vector;
 
 use crate::diagnosis::{fault_of_velocity, is_finite, what_is_not_finite};
+use crate::energy_budget::Stages;
 use crate::friction::{slow_nodes, sum_up_impulses};
 use crate::transfer::{GridNode, Transfer, advance};
 use crate::{
-    Basis, BodyForce, Boundary, Extents, ForceLocation, GridMotion, Medium, Mpm, MpmError, Particles, Sites,
+    Basis, BodyForce, Boundary, Extents, ForceLocation, GridMotion, Loading, Medium, Mpm, MpmError, Particles, Sites,
     StepControl, StepReport, StressUpdate,
 };
 
@@ -47,13 +48,14 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             &mut self.node_positions,
             &mut self.node_forces,
         )?;
+        self.push_nodes(dt, &mut stages);
         let speed = self.update_grid(dt, damping, control.speed_limit(h, dt))?;
         self.record(&mut stages);
         self.press_on_surfaces((dt, damping), speed * dt)?;
         self.record(&mut stages);
         self.slow_by_friction();
         self.record(&mut stages);
-        self.constrain_grid(dt, dt * damping);
+        self.constrain_grid(dt);
         self.check_nodes()?;
         self.record(&mut stages);
         self.account(&stages, damping);
@@ -190,26 +192,39 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
         }
     }
 
-    /// Velocities of the nodes that walls and obstacles touch, and [`GridMotion::force_step`] of forces at nodes.
-    pub(crate) fn constrain_grid(&mut self, dt: f64, force_step: f64) {
+    /// Impulses of the boundary's forces.
+    fn push_nodes(&mut self, dt: f64, stages: &mut Stages<D>) {
+        if !C::PRESENT {
+            return;
+        }
+        self.record_impulses(stages, -1.0);
+        let (medium, particles) = (&self.medium, &self.particles);
+        let loading = Loading {
+            extents: Extents {
+                positions: &particles.positions,
+                volume: &|p| volume(medium, particles, p),
+            },
+            time: self.time,
+            time_step: dt,
+            least_squares: T::MOVING_LEAST_SQUARES,
+        };
+        self.boundary.push(&self.basis, &loading, self.nodes.as_mut_slice());
+        self.record_impulses(stages, 1.0);
+    }
+
+    /// Velocities of the nodes that walls and obstacles touch.
+    pub(crate) fn constrain_grid(&mut self, dt: f64) {
         if C::PRESENT {
             self.basis.node_positions(&mut self.node_positions);
             let (medium, particles) = (&self.medium, &self.particles);
-            // The law's ratio: det F is not that of plastic laws, which keep an elastic part of F.
-            let volume = |p: usize| {
-                let deformed = particles.deformation_gradients.get(p).zip(particles.states.get(p));
-                let ratio = deformed.map_or(1.0, |(deformation, state)| medium.volume_ratio(deformation, state));
-                (particles.reference_volumes.get(p).copied().unwrap_or(0.0) * ratio).max(0.0)
-            };
             let motion = GridMotion {
                 positions: &self.node_positions,
                 extents: Extents {
                     positions: &particles.positions,
-                    volume: &volume,
+                    volume: &|p| volume(medium, particles, p),
                 },
                 time: self.time,
                 time_step: dt,
-                force_step,
             };
             self.boundary.constrain(&self.basis, &motion, self.nodes.as_mut_slice());
         }
@@ -259,6 +274,13 @@ fn rebuild<const D: usize, B: Basis<D>, S: Copy + Send + Sync>(
         particles.reorder(schedule.order());
     }
     basis.activate(&particles.positions)
+}
+
+/// V_p by the law's ratio: det F is not that of plastic laws, which keep an elastic part of F.
+fn volume<const D: usize, M: Medium<D>>(medium: &M, particles: &Particles<D, M::State>, p: usize) -> f64 {
+    let deformed = particles.deformation_gradients.get(p).zip(particles.states.get(p));
+    let ratio = deformed.map_or(1.0, |(deformation, state)| medium.volume_ratio(deformation, state));
+    (particles.reference_volumes.get(p).copied().unwrap_or(0.0) * ratio).max(0.0)
 }
 
 /// The particles as forces see them.

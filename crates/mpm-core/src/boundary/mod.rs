@@ -15,7 +15,7 @@ mod surface;
 
 pub use contact::Contact;
 pub use held_surface::{HeldNode, HeldSurface, ImageNode};
-pub use node_forces::NodeForces;
+pub use node_forces::{NodeForces, VirtualStress};
 pub use obstacle::Obstacle;
 pub use plane::Plane;
 pub use prescribed::PrescribedVelocity;
@@ -37,8 +37,19 @@ pub struct GridMotion<'a, const D: usize> {
     pub time: f64,
     /// Δt.
     pub time_step: f64,
-    /// The time over which forces act in this pass, Δt e^(−γΔt) like those of stresses; 0: velocities are constrained without them.
-    pub force_step: f64,
+}
+
+/// The particles when forces of a boundary are asked for.
+#[derive(Clone, Copy)]
+pub struct Loading<'a, const D: usize> {
+    /// The particles.
+    pub extents: Extents<'a, D>,
+    /// Time at the start of the step.
+    pub time: f64,
+    /// Δt.
+    pub time_step: f64,
+    /// Whether stresses act by w_ip D_p⁻¹ (x_i − x_p) in the place of ∇w_ip.
+    pub least_squares: bool,
 }
 
 /// Conditions on the velocities of the nodes.
@@ -53,6 +64,9 @@ pub trait Boundary<const D: usize>: Sync {
     fn check(&self) -> Result<(), MpmError> {
         Ok(())
     }
+
+    /// Give nodes the impulses Δt f_i of forces ([`GridNode::add_impulse`]), which are damped and limited together with those of the stresses.
+    fn push<B: Basis<D>, N: GridNode<D>>(&self, _basis: &B, _loading: &Loading<D>, _nodes: &mut [N]) {}
 
     /// Change the velocities ([`GridNode::velocity_mut`]) of nodes. What the nodes get goes back to the particles, so the
     /// momentum that is taken is the reaction of the boundary.
@@ -72,7 +86,7 @@ impl<const D: usize> Boundary<D> for NoBoundary {
     fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, _: &B, _: &GridMotion<D>, _: &mut [N]) {}
 }
 
-/// Forces at nodes, walls, held surfaces of a mesh, obstacles and prescribed velocities, applied in this order.
+/// Forces at nodes; then walls, held surfaces of a mesh, obstacles and prescribed velocities, applied in this order.
 #[derive(Default)]
 pub struct Boundaries<const D: usize> {
     /// Forces at nodes of the mesh.
@@ -146,10 +160,13 @@ impl<const D: usize> Boundary<D> for Boundaries<D> {
         Ok(())
     }
 
-    fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]) {
+    fn push<B: Basis<D>, N: GridNode<D>>(&self, basis: &B, loading: &Loading<D>, nodes: &mut [N]) {
         for forces in &self.forces {
-            forces.act(basis, motion, nodes);
+            forces.push(basis, loading, nodes);
         }
+    }
+
+    fn constrain<B: Basis<D>, N: GridNode<D>>(&mut self, basis: &B, motion: &GridMotion<D>, nodes: &mut [N]) {
         if !(self.walls.is_empty() && self.surfaces.is_empty() && self.obstacles.is_empty()) {
             self.masses.clear();
             self.masses.extend(nodes.iter().map(GridNode::mass));

@@ -44,7 +44,6 @@ fn constrained<S: Spline<W>, const W: usize>(boundaries: Boundaries<2>) -> Const
         },
         time: 0.0,
         time_step: 0.1,
-        force_step: 0.1,
     };
     let mut boundaries = boundaries;
     boundaries.constrain(&basis, &motion, &mut after);
@@ -91,7 +90,6 @@ impl<B: Basis<2>> Constrained<B> {
             },
             time: 0.0,
             time_step: 0.1,
-            force_step: 0.1,
         };
         let mut nodes = self.after.clone();
         boundaries.constrain(&self.basis, &motion, &mut nodes);

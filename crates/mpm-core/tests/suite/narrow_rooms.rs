@@ -86,7 +86,6 @@ impl<S: Spline<W>, const W: usize, const D: usize> Room<S, W, D> {
             },
             time: 0.0,
             time_step: 0.1,
-            force_step: 0.1,
         };
         Boundaries::new(walls.to_vec(), Vec::new()).constrain(&self.basis, &motion, &mut self.nodes);
     }

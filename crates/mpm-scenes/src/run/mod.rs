@@ -20,6 +20,7 @@ mod simulate;
 mod snapshot;
 mod summary;
 mod tagged;
+mod tractions;
 
 pub use error::SimulationError;
 pub use frames::{Effort, frames};

@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, HashMap};
 
 use mpm_core::{Contact, HeldSurface, NodeForces, Obstacle, SignedDistance};
-use mpm_mesh::{BoundaryFacet, MeshBasis, SimplexMesh};
 use mpm_tensor::vector as algebra;
 
 use super::dispatch;
 use super::held_facets::{behind, held, vertex_normals};
+use super::tractions::Tractions;
 use crate::background::{Background, facet_keys, named_facets, smooth_parts};
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
 use crate::shape::{MeshOutside, Shape};
@@ -76,6 +76,7 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
         obstacles: Vec::new(),
         forces: Vec::new(),
     };
+    let mut tractions = Tractions::default();
     for (index, table) in scene.facets.iter().enumerate() {
         let field = |key: &str| format!("facets[{index}].{key}");
         let Background::Mesh {
@@ -96,6 +97,9 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
             "a group of facets of the boundary alone: {inside} are inside the mesh, have no normal, and the condition does not act there"
         );
         within(&field("group"), &table.group, holds || inside == 0, &expected)?;
+        if table.condition != FacetCondition::Traction {
+            named_facets(inner, facets).for_each(|facet| tractions.hold(&facet));
+        }
         let normals = vertex_normals(inner, facets);
         let own = inner.vertices().len();
         match table.condition {
@@ -153,13 +157,15 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
                     .as_ref()
                     .map(|list| vector::<D>(&field("traction"), list));
                 let (traction, pressure) = (traction.transpose()?, table.pressure.unwrap_or(0.0));
-                let load = |facet: &BoundaryFacet<D>| traction.unwrap_or_else(|| facet.normal.map(|c| -pressure * c));
-                tagged.forces.push(NodeForces {
-                    forces: forces(&dispatch::mesh_basis(scene, whole)?, inner, facets, load),
-                    ramp: table.ramp.unwrap_or(0.0),
-                });
+                for facet in named_facets(inner, facets) {
+                    let traction = traction.unwrap_or_else(|| facet.normal.map(|c| -pressure * c));
+                    tractions.add(table.ramp.unwrap_or(0.0), &facet, &traction);
+                }
             }
         }
+    }
+    if let Background::Mesh { inner, whole, .. } = background {
+        tagged.forces = tractions.forces(|| dispatch::mesh_basis(scene, whole), inner, whole)?;
     }
     Ok(tagged)
 }
@@ -176,66 +182,4 @@ fn group<'a>(
     facets
         .map(Vec::as_slice)
         .ok_or_else(|| SceneFault::value(field, &table.group, expected))
-}
-
-/// f_i = Σ_v w_i(x_v) Σ_f t_f A_f / D over the vertices v of facets f with tractions t: ∫ w_i t dA with w_i between vertices by the hat functions of the boundary. Since Σ w_i = 1 and
-/// Σ w_i x_i = x_v, the force and its moments of first order are those of the facets.
-fn forces<const D: usize>(
-    basis: &MeshBasis<D>,
-    inner: &SimplexMesh<D>,
-    facets: &[u32],
-    load: impl Fn(&BoundaryFacet<D>) -> [f64; D],
-) -> Vec<([f64; D], [f64; D])> {
-    let mut at_vertices: BTreeMap<u32, [f64; D]> = BTreeMap::new();
-    for facet in named_facets(inner, facets) {
-        let load = load(&facet);
-        for vertex in facet.vertices {
-            algebra::accumulate(
-                at_vertices.entry(vertex).or_insert([0.0; D]),
-                facet.area / D as f64,
-                &load,
-            );
-        }
-    }
-    let mut at_nodes: BTreeMap<u32, [f64; D]> = BTreeMap::new();
-    for (vertex, force) in at_vertices {
-        for weight in basis.weights_at(&inner.vertices()[vertex as usize]).unwrap_or_default() {
-            algebra::accumulate(
-                at_nodes.entry(weight.vertex).or_insert([0.0; D]),
-                weight.entry.weight,
-                &force,
-            );
-        }
-    }
-    let position = |vertex: u32| basis.mesh().vertices()[vertex as usize];
-    let loaded = at_nodes.into_iter().filter(|(_, force)| *force != [0.0; D]);
-    loaded.map(|(vertex, force)| (position(vertex), force)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use mpm_mesh::MeshBasis;
-    use mpm_tensor::Matrix;
-
-    use super::super::held_facets::tests::with_rim;
-    use super::*;
-
-    /// Patch test of a traction: under t = σ n on the whole boundary, forces and their first moments are those of a constant stress, Σ f = 0 and Σ f xᵀ = V σ.
-    #[test]
-    #[allow(non_snake_case)]
-    fn tractions_of_a_constant_stress_are_in_equilibrium() {
-        let (inner, whole, rim) = with_rim();
-        let stress = Matrix([[2.0, -0.7], [-0.7, 0.5]]);
-        for width in [mpm_mesh::KernelWidth::LongestEdge, mpm_mesh::KernelWidth::Local] {
-            let basis = MeshBasis::new(&whole).expect("a basis").with_kernel_width(width);
-            let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
-            for (x, f) in forces(&basis, &inner, &rim, |facet| stress.apply(&facet.normal)) {
-                algebra::accumulate(&mut force, 1.0, &f);
-                moment += Matrix::outer(&f, &x);
-            }
-            let V = inner.total_volume();
-            assert!(algebra::norm(&force) < 1e-12, "{force:?}");
-            assert!((moment - stress * V).maximum_norm() < 1e-12, "{moment:?}");
-        }
-    }
 }

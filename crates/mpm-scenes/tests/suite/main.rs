@@ -24,4 +24,5 @@ mod resume;
 mod runs;
 mod scenes;
 mod shapes;
+mod tractions;
 mod volume_averaging;
