@@ -1,7 +1,6 @@
 //! From the tables of a scene to meshes.
 
 use std::any::Any;
-use std::collections::BTreeMap;
 
 use mpm_document::fingerprint;
 use mpm_mesh::generate::{
@@ -12,6 +11,7 @@ use mpm_mesh::{NamedMesh, SimplexMesh, read_named_msh};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+use super::sides::sides;
 use crate::SceneFault;
 use crate::rotation::Rotation;
 use crate::scene::{DelaunayTable, MeshShapeTable, MeshTable, RefinementTable, Scene, ShapeTable};
@@ -35,7 +35,7 @@ pub(super) fn inner<const D: usize>(
             check_holes(shape)?;
             let refused = |error| SceneFault::value("mesh.generate", shape, format!("a mesh: {error}"));
             let mesh = generate(shape, table.delaunay.as_ref(), table.angle.to_radians()).map_err(refused)?;
-            let facets = rims(shape, &mesh);
+            let facets = sides(shape, &mesh);
             (NamedMesh { mesh, facets }, None)
         }
         (None, None) => return Err(SceneFault::missing("mesh.generate", "given unless file is")),
@@ -82,27 +82,6 @@ fn check_holes(shape: &MeshShapeTable) -> Result<(), SceneFault> {
         }
     }
     Ok(())
-}
-
-/// The groups that the boundaries of a ring are.
-fn rims<const D: usize>(shape: &MeshShapeTable, mesh: &SimplexMesh<D>) -> BTreeMap<String, Vec<u32>> {
-    let mut rims: BTreeMap<String, Vec<u32>> = BTreeMap::new();
-    if let MeshShapeTable::Ring {
-        centre, inner, outer, ..
-    } = shape
-    {
-        for facet in mesh.boundary() {
-            let x = &mesh.vertices()[facet.vertices[0] as usize];
-            let square: f64 = x.iter().zip(centre).map(|(x, c)| (x - c).powi(2)).sum();
-            let name = if square.sqrt() < 0.5 * (inner + outer) {
-                "inner"
-            } else {
-                "outer"
-            };
-            rims.entry(name.to_owned()).or_default().extend(facet.vertices);
-        }
-    }
-    rims
 }
 
 /// The mesh of a file of Gmsh, beside the scene, and its fingerprint.

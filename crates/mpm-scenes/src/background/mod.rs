@@ -3,6 +3,7 @@
 mod generate;
 mod layer;
 mod named_facets;
+mod sides;
 
 use std::collections::BTreeMap;
 

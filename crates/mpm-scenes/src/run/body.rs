@@ -48,7 +48,7 @@ impl<'a, const D: usize> Body<'a, D> {
         let start = Population::<D>::fill_on(scene, &background).map_err(refused)?;
         placement::check(scene, &background, &start).map_err(refused)?;
         Probe::check_points(scene, background.room(), &start).map_err(refused)?;
-        let (boundaries, movers) = boundary::build::<D>(scene, &background).map_err(refused)?;
+        let (boundaries, movers) = boundary::build(scene, &background, &start).map_err(refused)?;
         let kinematics = Kinematics::of(scene, &start).map_err(refused)?;
         let mesh_contents = background.file_contents();
         let mut motion = dispatch::build(scene, &start, background, boundaries).map_err(refused)?;

@@ -7,6 +7,7 @@ use mpm_tensor::vector as algebra;
 
 use super::tagged::{self, Tagged};
 use crate::background::Background;
+use crate::population::Population;
 use crate::scene::{self, Scene, WallCondition};
 use crate::shape::{self, Bounds, Shape};
 use crate::values::vector;
@@ -63,6 +64,7 @@ impl<const D: usize> Movers<D> {
 pub(super) fn build<const D: usize>(
     scene: &Scene,
     background: &Background<D>,
+    population: &Population<D>,
 ) -> Result<(Boundaries<D>, Movers<D>), SceneFault> {
     plane::check_alike(scene, Some(background.room()))?;
     let walls = scene
@@ -92,7 +94,7 @@ pub(super) fn build<const D: usize>(
         surfaces,
         obstacles: tagged,
         forces,
-    } = tagged::build(scene, background)?;
+    } = tagged::build(scene, background, population)?;
     obstacles.extend(tagged);
     let held = HeldRegion::<D>::of(scene)?;
     speeds.extend(held.iter().map(|region| (region.largest_speed(), region.until)));

@@ -7,8 +7,9 @@ use mpm_tensor::vector as algebra;
 
 use super::dispatch;
 use super::held_facets::{behind, held, vertex_normals};
-use super::tractions::Tractions;
+use super::tractions::{Filled, Tractions};
 use crate::background::{Background, facet_keys, named_facets, smooth_parts};
+use crate::population::Population;
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::{vector, within};
@@ -66,17 +67,21 @@ pub(super) struct Tagged<const D: usize> {
     pub forces: Vec<NodeForces<D>>,
 }
 
-/// The conditions of `[[facets]]`.
+/// The conditions of `[[facets]]`, for these particles.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a group that the mesh does not have, and for tables that [`Scene::read`] refuses.
-pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -> Result<Tagged<D>, SceneFault> {
+/// [`SceneFault::Value`] for a group that the mesh does not have, for a traction on facets that no body touches, and for tables that [`Scene::read`] refuses.
+pub(super) fn build<const D: usize>(
+    scene: &Scene,
+    background: &Background<D>,
+    population: &Population<D>,
+) -> Result<Tagged<D>, SceneFault> {
     let mut tagged = Tagged {
         surfaces: Vec::new(),
         obstacles: Vec::new(),
         forces: Vec::new(),
     };
-    let mut tractions = Tractions::default();
+    let (mut tractions, mut filled) = (Tractions::default(), None);
     for (index, table) in scene.facets.iter().enumerate() {
         let field = |key: &str| format!("facets[{index}].{key}");
         let Background::Mesh {
@@ -157,7 +162,13 @@ pub(super) fn build<const D: usize>(scene: &Scene, background: &Background<D>) -
                     .as_ref()
                     .map(|list| vector::<D>(&field("traction"), list));
                 let (traction, pressure) = (traction.transpose()?, table.pressure.unwrap_or(0.0));
-                for facet in named_facets(inner, facets) {
+                let filled = filled.get_or_insert_with(|| Filled::new(inner, population));
+                let mut loaded = named_facets(inner, facets)
+                    .filter(|facet| filled.is_touched(facet))
+                    .peekable();
+                let expected = "a group with a facet that a body touches: the traction acts on none";
+                within(&field("group"), &table.group, loaded.peek().is_some(), expected)?;
+                for facet in loaded {
                     let traction = traction.unwrap_or_else(|| facet.normal.map(|c| -pressure * c));
                     tractions.add(table.ramp.unwrap_or(0.0), &facet, &traction);
                 }

@@ -3,9 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mpm_core::{NodeForces, VirtualStress};
-use mpm_mesh::{BoundaryFacet, CellSearch, MeshBasis, SimplexMesh};
+use mpm_mesh::{BoundaryFacet, CellSearch, Lists, MeshBasis, SimplexMesh};
 use mpm_tensor::vector as algebra;
 use mpm_tensor::{Matrix, SymmetricEigen};
+
+use crate::population::Population;
 
 /// A facet by its cell and the place of the vertex opposite.
 type Place = (u32, usize);
@@ -21,6 +23,45 @@ pub(super) struct Tractions<const D: usize> {
     loads: BTreeMap<u64, BTreeMap<Place, [f64; D]>>,
     /// Facets at which something else says what happens.
     held: BTreeSet<Place>,
+}
+
+/// What bodies fill of the cells of a mesh.
+pub(super) struct Filled<'a, const D: usize> {
+    mesh: &'a SimplexMesh<D>,
+    vertex_cells: Lists,
+    /// Volume of the particles in each cell.
+    volumes: Vec<f64>,
+}
+
+impl<'a, const D: usize> Filled<'a, D> {
+    /// With these particles.
+    pub fn new(mesh: &'a SimplexMesh<D>, population: &Population<D>) -> Self {
+        let search = CellSearch::new(mesh.clone());
+        let (mut volumes, mut near) = (vec![0.0; mesh.cell_count()], None);
+        let sizes = population.volumes.iter().zip(&population.stretches);
+        for (x, (volume, stretch)) in population.positions.iter().zip(sizes) {
+            near = search.locate(x, near).map(|place| place.cell);
+            if let Some(cell) = near {
+                volumes[cell as usize] += volume * stretch.powi(D as i32);
+            }
+        }
+        Self {
+            mesh,
+            vertex_cells: mesh.vertex_cells(),
+            volumes,
+        }
+    }
+
+    /// Whether a body is at a facet: it fills more than half of the cells that have a vertex of it.
+    pub fn is_touched(&self, facet: &BoundaryFacet<D>) -> bool {
+        let at_vertices = facet
+            .vertices
+            .iter()
+            .flat_map(|&vertex| self.vertex_cells.get(vertex as usize));
+        let cells: BTreeSet<usize> = at_vertices.map(|&cell| cell as usize).collect();
+        let sum = |volume: &dyn Fn(usize) -> f64| cells.iter().map(|&cell| volume(cell)).sum::<f64>();
+        sum(&|cell| self.volumes[cell]) > 0.5 * sum(&|cell| self.mesh.volume(cell))
+    }
 }
 
 impl<const D: usize> Tractions<D> {

@@ -183,7 +183,7 @@ pub enum MeshShapeTable {
         /// Length of edges.
         size: f64,
     },
-    /// A disk with a hole about its centre, D = 2; its boundaries are the groups `inner` and `outer`.
+    /// A disk with a hole about its centre, D = 2.
     Ring {
         /// Its centre.
         centre: [f64; 2],

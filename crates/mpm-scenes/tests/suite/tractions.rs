@@ -77,3 +77,67 @@ fn single_particles_have_the_pressure_in_space() {
     let [least, most] = stresses(&text, 3);
     assert!(least > -1.7 && most < -0.3, "{least} to {most}");
 }
+
+/// A plate in plane strain that two sides guide, pulled at a third.
+const PULLED: &str = r#"
+title = "a plate is pulled"
+dimension = 2
+transfer = { kind = "apic" }
+time = { end = 1.0, damping = 20.0 }
+materials.rubber = { law = "neo-hookean", density = 1.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
+facets = [
+    { group = "x-lower", condition = "slip" },
+    { group = "y-lower", condition = "slip" },
+    { group = "x-upper", condition = "traction", traction = [1.0, 0.0], ramp = 0.5 },
+]
+output = { interval = 1.0 }
+mesh = { generate = { kind = "rectangle", lower = [0.0, 0.0], upper = [2.0, 1.0], size = 0.2 } }
+bodies = [{ name = "plate", material = "rubber", shape = { kind = "box", lower = [0.0, 0.0], upper = [2.0, 1.0] } }]
+"#;
+
+/// σ_xx = t, u_x = (1 − ν²) t x / E and u_y = −ν (1 + ν) t y / E, up to strains of a thousandth and the softness of diffuse gradients.
+#[test]
+fn a_plate_that_is_pulled_at_one_side_stretches() {
+    let scene = Scene::parse(PULLED, Path::new("plate.toml")).expect("a scene");
+    let mut snapshots = Vec::new();
+    frames(&scene, &mut |snapshot| snapshots.push(snapshot)).expect("a run");
+    let [start, .., end] = &snapshots[..] else {
+        panic!("two frames");
+    };
+    for stress in end.stresses.chunks(4) {
+        assert!((stress[0] - 1.0).abs() < 0.2, "{stress:?}");
+    }
+    let mut errors = [0.0_f64; 2];
+    for (X, x) in start.positions.chunks(2).zip(end.positions.chunks(2)) {
+        for (axis, strain) in [(0, 0.91e-3), (1, -0.39e-3)] {
+            errors[axis] = errors[axis].max((x[axis] - X[axis] - strain * X[axis]).abs());
+        }
+    }
+    assert!(
+        errors[0] < 0.03 * 2.0 * 0.91e-3 && errors[1] < 0.1 * 0.39e-3,
+        "{errors:?}"
+    );
+}
+
+#[test]
+fn a_traction_on_facets_that_no_body_touches_is_refused() {
+    let text = PULLED.replace("upper = [2.0, 1.0] } }]", "upper = [1.0, 1.0] } }]");
+    let scene = Scene::parse(&text, Path::new("plate.toml")).expect("a scene");
+    let message = frames(&scene, &mut |_| {}).expect_err("refused").to_string();
+    let expected = "facets[2].group = \"x-upper\": must be a group with a facet that a body touches";
+    assert!(message.contains(expected), "{message}");
+}
+
+/// Half of a side is pulled, up to a facet, where the body is; the other half has nothing to pull, and pushes no one.
+#[test]
+fn tractions_act_where_bodies_are() {
+    let half = PULLED
+        .replace("x-upper", "y-upper")
+        .replace("traction = [1.0, 0.0]", "traction = [0.0, 1.0]")
+        .replace("upper = [2.0, 1.0] } }]", "upper = [1.0, 1.0] } }]");
+    let scene = Scene::parse(&half, Path::new("plate.toml")).expect("a scene");
+    let mut end = Snapshot::default();
+    frames(&scene, &mut |snapshot| end = snapshot).expect("a run");
+    let mean = end.stresses.chunks(4).map(|stress| stress[3]).sum::<f64>() / (end.stresses.len() / 4) as f64;
+    assert!((mean - 1.0).abs() < 0.1, "{mean}");
+}
