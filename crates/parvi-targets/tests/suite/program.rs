@@ -164,3 +164,15 @@ fn the_last_line_too_many_is_named_at_the_end() {
         "a program that was ended is begun anew"
     );
 }
+
+#[test]
+fn nothing_of_a_command_line_goes_on_after_the_end() {
+    let directory = tempfile::tempdir().unwrap();
+    let late = directory.path().join("late");
+    // The shell waits for a shell of its own, which goes on for longer than it is waited for after its input has ended.
+    let answers = "while read what rest; do if [ $what = score ]; then echo; else echo 0; fi; done";
+    let line = format!("sh -c '{answers}; sleep 3; : > \"$0\"' '{}'; true", late.display());
+    drop(start::<2>(&line).unwrap());
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    assert!(!late.exists());
+}

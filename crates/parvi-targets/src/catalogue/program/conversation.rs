@@ -198,6 +198,7 @@ impl Conversation {
             }
             std::thread::sleep(LOOK);
         }
+        end_group(&self.child);
         self.child.kill().ok()?;
         self.child.wait().ok()
     }
@@ -224,6 +225,19 @@ fn shell(command: &str) -> Command {
         shell.arg("/C").arg(command);
         shell
     }
+}
+
+/// Ends what the shell has started: the program itself, where the command line is more than one program.
+fn end_group(shell: &Child) {
+    #[cfg(unix)]
+    {
+        let line = format!("kill -KILL -{}", shell.id());
+        let kill = Command::new("sh").arg("-c").arg(line).stderr(Stdio::null()).status();
+        // Where that fails the shell is ended alone.
+        let _ = kill;
+    }
+    #[cfg(not(unix))]
+    let _ = shell;
 }
 
 /// A word and the coordinates, with as many digits as they have, and the end of the line.
