@@ -28,7 +28,7 @@ impl AtomicFile {
     /// Opens the temporary file, which shows early that the directory can be written.
     ///
     /// # Errors
-    /// [`FileError::System`] if the directory does not exist, cannot be written, or the destination is a directory.
+    /// [`FileError::System`] if the directory does not exist, cannot be written, or the destination is a directory or no file at all: a device or a pipe, which the file would take the place of.
     pub fn create(destination: impl Into<PathBuf>) -> Result<Self, FileError> {
         let destination = destination.into();
         let refuse = |source| FileError::system("write", &destination, source);
@@ -37,6 +37,11 @@ impl AtomicFile {
         };
         if destination.is_dir() {
             return Err(refuse(io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        if destination.exists() && !destination.is_file() {
+            return Err(refuse(io::Error::other(
+                "it is a device or a pipe, in whose place a file would be put",
+            )));
         }
         let temporary_name = format!(".{}.{}{PARTIAL_SUFFIX}", name.to_string_lossy(), std::process::id());
         let temporary = destination.with_file_name(temporary_name);
@@ -124,6 +129,17 @@ mod tests {
         AtomicFile::write(&path, "new").unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
         assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_socket_stays_one() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("x.csv");
+        let _socket = std::os::unix::net::UnixListener::bind(&path).unwrap();
+        let message = AtomicFile::create(&path).err().unwrap().to_string();
+        assert!(message.ends_with("in whose place a file would be put"), "{message}");
+        assert!(!path.is_file());
     }
 
     #[test]
