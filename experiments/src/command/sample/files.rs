@@ -19,12 +19,13 @@ pub fn check(arguments: &Arguments) -> Result<(), CommandError> {
         ("data", arguments.parameters.data.as_deref()),
         ("frames", arguments.frames.as_deref()),
         ("plots", arguments.plots.as_deref()),
+        ("mesh", options.mesh.as_deref().map(Path::new)),
         ("start", options.start.as_deref().map(Path::new)),
         ("masses", options.masses.as_deref().map(Path::new)),
         ("volumes", options.volumes.as_deref().map(Path::new)),
         ("velocities", options.velocities.as_deref().map(Path::new)),
     ];
-    let is_read = |name: &str| ["data", "start", "masses", "volumes", "velocities"].contains(&name);
+    let is_read = |name: &str| ["data", "mesh", "start", "masses", "volumes", "velocities"].contains(&name);
     let placed = |(name, path): (_, Option<_>)| Some((name, path?, place(path?)));
     let given: Vec<_> = files.into_iter().filter_map(placed).collect();
     for (k, (name, path, own)) in given.iter().enumerate() {
