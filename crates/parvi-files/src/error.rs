@@ -27,7 +27,7 @@ pub enum FileError {
         /// What is wrong, with line and value.
         message: String,
     },
-    /// The extension of a file to be written is not one that there is.
+    /// The extension of a file is not one that there is.
     #[error("--{flag} {}: the extension must be .csv or .npy", .path.display())]
     Extension {
         /// The flag that asked for the file, without dashes in front.
@@ -78,6 +78,9 @@ impl FileError {
 
     /// Whether something was asked for that cannot be, rather than that something failed.
     pub fn is_of_request(&self) -> bool {
-        !matches!(self, Self::System { .. } | Self::Unreadable { .. })
+        !matches!(
+            self,
+            Self::System { .. } | Self::Unreadable { .. } | Self::NoTable { .. }
+        )
     }
 }

@@ -19,12 +19,11 @@ impl NumberTable {
     /// Reads the file of a flag. A first line of a .csv that holds anything but numbers is a header; an .npy is f64, of one axis (a column) or of two.
     ///
     /// # Errors
-    /// [`FileError::NoTable`], with the line where it can be told.
+    /// [`FileError::Extension`] of another file, [`FileError::NoTable`], with the line where it can be told.
     pub fn read(flag: &'static str, path: &Path) -> Result<Self, FileError> {
-        let table = match ParticleFormat::told(path) {
-            Some(ParticleFormat::Csv) => Self::of_csv(path),
-            Some(ParticleFormat::Npy) => npy::table(path),
-            None => Err("the extension must be .csv or .npy".to_owned()),
+        let table = match ParticleFormat::of(flag, path)? {
+            ParticleFormat::Csv => Self::of_csv(path),
+            ParticleFormat::Npy => npy::table(path),
         };
         table.map_err(|reason| FileError::NoTable {
             flag,

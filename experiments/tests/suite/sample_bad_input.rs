@@ -237,7 +237,36 @@ fn a_start_that_is_not_finite_has_its_row() {
     let line = "sample --target banana --method svgd --start start.csv --out x.csv";
     let output = parvi(directory.path(), line);
     assert_refused(&output, &["--start", "start.csv", "row 2, column 2", "NaN"]);
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_no_wrong_flag_whatever_it_is_for() {
+    let directory = tempfile::tempdir().unwrap();
+    for (flags, code) in [
+        ("--target banana --start none.csv", 1),
+        ("--target banana --start none.npy", 1),
+        ("--target banana --start none.txt", 2),
+        ("--target logistic --data none.csv", 1),
+    ] {
+        let output = parvi(directory.path(), &format!("sample {flags} --particles 64 --out x.csv"));
+        assert_refused(&output, &["none."]);
+        assert_eq!(output.status.code(), Some(code), "{flags}");
+    }
+}
+
+#[test]
+fn a_mesh_is_not_written_over() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("disk.msh"), "mine").unwrap();
+    let line = "sample --target gaussian --dim 2 --particles 64 --basis mesh --mesh disk.msh --out x.csv";
+    let output = parvi(directory.path(), &format!("{line} --diagnostics ./disk.msh"));
+    assert_refused(&output, &["disk.msh is the file of --"]);
     assert_eq!(output.status.code(), Some(2));
+    assert_eq!(
+        std::fs::read_to_string(directory.path().join("disk.msh")).unwrap(),
+        "mine"
+    );
 }
 
 #[test]

@@ -12,6 +12,13 @@ fn whatever_is_wrong_is_named() {
 
     let error = NumberTable::read("start", &words).unwrap_err();
     let expected = format!("--start: {shown}: line 2: 'two' is not a number");
+    assert_eq!((error.to_string(), error.is_of_request()), (expected, false));
+
+    let error = NumberTable::read("start", &path("x.txt")).unwrap_err();
+    let expected = format!(
+        "--start {}: the extension must be .csv or .npy",
+        path("x.txt").display()
+    );
     assert_eq!((error.to_string(), error.is_of_request()), (expected, true));
 
     let error = OutputDirectory::create("frames", &words).err().unwrap();

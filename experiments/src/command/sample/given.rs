@@ -4,7 +4,7 @@ use std::path::Path;
 
 use mpm_tensor::Matrix;
 use parvi::{GivenParticles, Run, SampleError, independent_draws, sobol_points};
-use parvi_files::NumberTable;
+use parvi_files::{FileError, NumberTable};
 use parvi_options::{Dimension, OptionError, TargetSpecification};
 use parvi_targets::{CatalogueTarget, Gaussian};
 
@@ -73,7 +73,12 @@ fn read(
         return Ok(table.numbers);
     };
     let (row, column, number) = (index / columns + 1, index % columns + 1, table.numbers[index]);
-    Err(refused(format!(": row {row}, column {column} is not finite: {number}")))
+    Err(FileError::NoTable {
+        flag,
+        path: path.to_owned(),
+        reason: format!("row {row}, column {column} is not finite: {number}"),
+    }
+    .into())
 }
 
 fn sorted(names: &[String]) -> Vec<&String> {
