@@ -1,5 +1,5 @@
-use std::fs;
 use std::path::Path;
+use std::{fs, io};
 
 use super::body::Body;
 use super::driver::Driver;
@@ -31,6 +31,13 @@ fn simulate_in<const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SimulationError> {
     let body = Body::<D>::begin(scene)?;
+    if out.exists() && !out.is_dir() {
+        let reason = "is a file, and a directory is needed";
+        return Err(SimulationError::file(
+            out,
+            io::Error::new(io::ErrorKind::NotADirectory, reason),
+        ));
+    }
     fs::create_dir_all(out).map_err(|error| SimulationError::file(out, error))?;
     let _claimed = mpm_document::claim(out).map_err(|error| SimulationError::file(out, error))?;
     let driver = Driver::begin(scene, out, body)?;

@@ -58,3 +58,16 @@ fn numbers_that_are_none_end_a_run() {
     assert!(column == "kinetic_energy" || column == "potential_energy", "{column}");
     assert!(value.is_infinite());
 }
+
+#[test]
+fn a_file_in_the_place_of_the_directory_is_said_to_be_one() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let file = directory.path().join("out");
+    std::fs::write(&file, "mine").expect("written");
+    let error = simulate(&scene(BLOCK), &file, &mut ()).expect_err("a file");
+    let message = error.to_string();
+    assert!(
+        message.ends_with("out: is a file, and a directory is needed"),
+        "{message}"
+    );
+}
