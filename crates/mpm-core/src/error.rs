@@ -5,7 +5,7 @@ use mpm_materials::DeformationError;
 #[non_exhaustive]
 pub enum MpmError {
     /// A position is not a number, or so far out that its grid coordinate leaves the integer range.
-    #[error("particle {particle} is at {position:?}, outside the grid's range (spacing {spacing})")]
+    #[error("particle {particle} is at {position:?}, outside the grid's range (spacing {spacing:e})")]
     PositionOutOfRange {
         /// From [`Mpm::step`](crate::Mpm::step): the particle in the order of creation. From
         /// [`Basis::rebuild`](crate::Basis::rebuild): its place in the list of positions.
