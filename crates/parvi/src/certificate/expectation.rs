@@ -15,6 +15,8 @@ const EXPLAINED: f64 = 0.05;
 ///
 /// `None` if the particles are too few (fewer than 8 D) or lie in a plane, or where a score or a value is not finite. The scores know nothing of the
 /// masses of separate pieces: where particles are in several, the part between these counts as unexplained; of one that none is in nothing is said.
+/// Nor do they know of edges: where the density falls to zero at once `estimate` may be anything, with little unexplained, and the standard error of the average is too large by as much. [`Pool::expectation`](parvi_pool::Pool::expectation)
+/// is right there.
 ///
 /// Of an event that no particle meets the average is 0 and its standard error, too, whatever the event's probability is: M particles know of probabilities from about 1/M on (docs/limitations.md).
 pub fn expectation<const D: usize>(
