@@ -19,7 +19,7 @@ pub trait Material<const D: usize>: Sync {
     fn energy_density(&self, F: &Matrix<D>) -> f64;
 
     /// τ = P Fᵀ, the Kirchhoff stress. Called once per particle and step, without a check of its own: an F for which
-    /// [`check`](Self::check) fails gives a stress that is not finite.
+    /// [`check`](Self::check) fails gives a stress that is not finite. That of an objective material is symmetric to the bit.
     fn kirchhoff_stress(&self, F: &Matrix<D>) -> Matrix<D>;
 
     /// τ along each axis that D < 3 leaves out, as [`Law::kirchhoff_stress_across`](crate::Law::kirchhoff_stress_across).
