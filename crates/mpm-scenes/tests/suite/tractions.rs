@@ -108,9 +108,9 @@ fn a_plate_that_is_pulled_at_one_side_stretches() {
         assert!((stress[0] - 1.0).abs() < 0.2, "{stress:?}");
     }
     let mut errors = [0.0_f64; 2];
-    for (X, x) in start.positions.chunks(2).zip(end.positions.chunks(2)) {
+    for (from, to) in start.positions.chunks(2).zip(end.positions.chunks(2)) {
         for (axis, strain) in [(0, 0.91e-3), (1, -0.39e-3)] {
-            errors[axis] = errors[axis].max((x[axis] - X[axis] - strain * X[axis]).abs());
+            errors[axis] = errors[axis].max((to[axis] - (1.0 + strain) * from[axis]).abs());
         }
     }
     assert!(
