@@ -55,3 +55,15 @@ fn the_spinning_square_keeps_its_momenta() {
         end.rows
     );
 }
+
+/// Half-width and pressure of Hertz's contact where particles follow the surface; a lattice stands on its lowest row, whatever the barrier.
+#[test]
+fn the_cylinder_is_flattened_as_by_hertz() {
+    let coarse = |fill: &str| {
+        let changes = [("spacing = 0.02", "spacing = 0.03"), ("fill = \"vertices\"", fill)];
+        run("hertz_cylinder", &changes)
+    };
+    coarse("fill = \"vertices\"").passes_as_pinned("hertz_cylinder, 0.03");
+    let on_a_lattice = coarse("fill = \"regular\"").row("half-width").measured;
+    assert!(on_a_lattice > 1.2, "{on_a_lattice}");
+}

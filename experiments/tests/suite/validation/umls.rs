@@ -146,3 +146,14 @@ fn the_hole_in_a_graded_mesh_widens_under_pressure() {
     ];
     run("umls_graded", &changes).passes_as_pinned("umls_graded");
 }
+
+/// Tension in a wide plate with a hole: displacements, stresses of single particles and recovered ones, and the stress concentration beside Kirsch's solution.
+#[test]
+fn the_hole_concentrates_stress() {
+    let changes = [
+        ("ramp = 3.0", "ramp = 1.0"),
+        ("end = 6.0", "end = 3.0"),
+        ("\ninterval = 6.0", "\ninterval = 3.0"),
+    ];
+    run("umls_plate_with_hole", &changes).passes_as_pinned("umls_plate_with_hole");
+}
