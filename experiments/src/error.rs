@@ -53,34 +53,15 @@ pub enum CommandError {
     /// A file that cannot be read or written, or does not hold what it should.
     #[error(transparent)]
     Files(#[from] FileError),
-    /// A pool was asked for, and nothing could be weighed.
-    #[error(
-        "--pool: nothing could be weighed, so that there is no pool; the particles are those of a body without a survey"
-    )]
-    NoPool,
     /// A number that should be finite is not.
-    #[error("{what} is not finite: {value}")]
-    NotFinite {
-        /// What was computed.
-        what: String,
-        /// What came out.
-        value: f64,
-    },
+    #[error("a particle is not finite: {0}")]
+    NotFinite(f64),
     /// A configuration does not say what it has to, or says too much.
     #[error(transparent)]
     Config(#[from] DocumentError),
-    /// The file is one that another command takes.
-    #[error("{file} seems to be {found}, which `{command}` takes; this command takes {expected}")]
-    OtherKind {
-        /// The file.
-        file: String,
-        /// What it seems to be.
-        found: &'static str,
-        /// The command for it.
-        command: &'static str,
-        /// What was asked for.
-        expected: &'static str,
-    },
+    /// A file that another command takes.
+    #[error("{0}")]
+    OtherKind(String),
     /// The parts of a configuration do not fit together.
     #[error("{file}: {field}: {message}")]
     ConfigField {
@@ -91,47 +72,15 @@ pub enum CommandError {
         /// What is wrong with it, with its value.
         message: String,
     },
-    /// The output directory is in use by something else.
-    #[error("{directory} {occupant}; it was left untouched, choose another --out")]
-    DirectoryOccupied {
-        /// The directory.
-        directory: String,
-        /// What it holds.
-        occupant: String,
-    },
-    /// A directory in which nothing was run.
-    #[error(
-        "{directory} holds no results: a study has its config.toml there, a simulated scene its scene.toml, a reduced-order model its model.safetensors"
-    )]
-    NothingToReport {
-        /// The directory.
-        directory: String,
-    },
-    /// A directory in which a reduced-order model is trained, without the model yet.
-    #[error(
-        "{directory} holds a training that is not finished: the same `parvi rom train` goes on with it, and reports are of reduced runs"
-    )]
-    Untrained {
-        /// The directory.
-        directory: String,
-    },
+    /// What cannot be done as things are: a directory in use by something else, one in which there is nothing to report, a pool of nothing, threads that the system refuses.
+    #[error("{0}")]
+    Refused(String),
     /// A case of a study gave nothing, which is its result.
     #[error("{}", .0.reason)]
     Failed(Failure),
-    /// Ctrl-C.
-    #[error("interrupted{hint}")]
-    Interrupted {
-        /// How to go on.
-        hint: String,
-    },
-    /// A pool of threads could not be started.
-    #[error("cannot start {threads} threads: {reason}")]
-    Threads {
-        /// Their number.
-        threads: usize,
-        /// What the system said.
-        reason: String,
-    },
+    /// Ctrl-C, and how to go on.
+    #[error("interrupted{0}")]
+    Interrupted(String),
 }
 
 impl CommandError {
@@ -145,11 +94,19 @@ impl CommandError {
         FileError::unreadable(path, message).into()
     }
 
+    /// A directory, or a file in it, is in use: what is there.
+    pub fn occupied(path: &Path, occupant: &str) -> Self {
+        let path = path.display();
+        Self::Refused(format!(
+            "{path} {occupant}; it was left untouched, choose another --out"
+        ))
+    }
+
     /// Whether the command was interrupted rather than failed.
     pub fn is_interruption(&self) -> bool {
         matches!(
             self,
-            Self::Interrupted { .. } | Self::Stopped(_) | Self::Sample(SampleError::Interrupted { .. })
+            Self::Interrupted(_) | Self::Stopped(_) | Self::Sample(SampleError::Interrupted { .. })
         )
     }
 }

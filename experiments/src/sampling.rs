@@ -51,10 +51,7 @@ pub fn sample_target<const D: usize>(
         ..Outcome::from(samples)
     };
     if let Some(value) = outcome.particles.first_not_finite() {
-        return Err(CommandError::NotFinite {
-            what: "a particle".to_owned(),
-            value,
-        });
+        return Err(CommandError::NotFinite(value));
     }
     for number in [
         &mut outcome.log_evidence,

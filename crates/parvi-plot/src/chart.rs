@@ -3,7 +3,7 @@
 use super::chart_panel::draw_panel;
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{AxesParts, Panel, TITLE_ROOM, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{Scale, Ticks, plottable};
 use super::series::ChartPanel;
 use super::style::{FIGURE_WIDTH, GUIDE, MARGIN, SeriesStyle, styles};
@@ -94,13 +94,10 @@ impl Chart {
         let labelled = |column: usize| column == 0 || !one_y_label || !one_exponent;
         let left_rooms: Vec<f64> = (0..columns)
             .map(|column| {
-                let members = self.panels.iter().zip(&prepared).skip(column);
-                let lines = members.step_by(columns).map(|(panel, prepared)| {
-                    let exponent = prepared.y_ticks.exponent;
-                    label_lines(&panel.y.label, exponent, self.panel_height).len()
-                });
-                let lines = lines.filter(|_| labelled(column)).max().unwrap_or(0);
-                column_ticks[column] + label_room(lines)
+                let members = self.panels.iter().zip(&prepared).skip(column).step_by(columns);
+                let rooms =
+                    members.map(|(panel, prepared)| prepared.y_ticks.label_room(&panel.y.label, self.panel_height));
+                column_ticks[column] + rooms.filter(|_| labelled(column)).fold(0.0, f64::max)
             })
             .collect();
         let gap = 10.0;
@@ -131,8 +128,8 @@ impl Chart {
         let mut row_tops = vec![top];
         for row in 0..rows {
             let members = row * columns..((row + 1) * columns).min(self.panels.len());
-            let lines = members.map(|index| label_lines(x_label(index), x_ticks[index].exponent, panel_width).len());
-            let below = x_axis_room(lines.max().unwrap_or(0)) + 6.0;
+            let rooms = members.map(|index| x_ticks[index].label_room(x_label(index), panel_width));
+            let below = x_axis_room(rooms.fold(0.0, f64::max)) + 6.0;
             row_tops.push(row_tops[row] + title_room + self.panel_height + below);
         }
         for (index, (panel, prepared)) in self.panels.iter().zip(&prepared).enumerate() {
@@ -174,6 +171,7 @@ impl Chart {
         for panel in &self.panels {
             let (mut abscissas, mut ordinates) = (Vec::new(), Vec::new());
             for series in &panel.series {
+                let series = &series.line;
                 check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
                 if !series.bars.is_empty() {
                     let what = || format!("{}: error bars", series.label);
@@ -220,10 +218,10 @@ impl Chart {
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
             let swatch = Swatch::Series {
                 style: series.style,
-                line: series.connection.dash(),
+                line: series.dash,
                 markers: series.markers,
             };
-            add(swatch, &series.label);
+            add(swatch, &series.line.label);
         }
         for level in self.panels.iter().flat_map(|panel| &panel.levels) {
             add(Swatch::Line(Stroke::dashed(GUIDE, 1.1)), &level.label);

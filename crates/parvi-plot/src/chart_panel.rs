@@ -1,5 +1,6 @@
 //! The content of one panel of a chart.
 
+use super::line_series::LineSeries;
 use super::panel::{AxesParts, Panel};
 use super::series::{ChartPanel, ChartSeries};
 use super::style::{GUIDE, LINE_WIDTH};
@@ -17,13 +18,13 @@ pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel
             }
         }
         for series in panel.series.iter().rev() {
-            if let Some(dash) = series.connection.dash() {
+            if let Some(dash) = series.dash {
                 let stroke = Stroke {
                     color: series.style.color,
                     width: LINE_WIDTH,
                     dash,
                 };
-                drawing.paths(&line_segments(axes, series), stroke);
+                drawing.paths(&line_segments(axes, &series.line), stroke);
             }
         }
     });
@@ -31,8 +32,8 @@ pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel
         draw_bars(drawing, axes, series);
     }
     for series in panel.series.iter().rev().filter(|series| series.markers) {
-        for (x, y) in series.x.iter().zip(&series.y) {
-            if let Some(at) = axes.point(*x, *y) {
+        for (x, y) in series.line.points() {
+            if let Some(at) = axes.point(x, y) {
                 drawing.marker(at, series.style);
             }
         }
@@ -43,10 +44,10 @@ pub(super) fn draw_panel(drawing: &mut Drawing, axes: &Panel, panel: &ChartPanel
 
 /// The series' line, interrupted where values cannot be drawn. Of many points within half a point of the page's width, only
 /// the first, lowest, highest and last are kept, which looks the same.
-fn line_segments(axes: &Panel, series: &ChartSeries) -> Vec<Vec<(f64, f64)>> {
+fn line_segments(axes: &Panel, line: &LineSeries) -> Vec<Vec<(f64, f64)>> {
     let mut segments = vec![Vec::new()];
-    for (x, y) in series.x.iter().zip(&series.y) {
-        match (axes.point(*x, *y), segments.last_mut()) {
+    for (x, y) in line.points() {
+        match (axes.point(x, y), segments.last_mut()) {
             (Some(point), Some(segment)) => segment.push(point),
             (None, Some(segment)) if !segment.is_empty() => segments.push(Vec::new()),
             _ => {}
@@ -76,11 +77,11 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 fn draw_bars(drawing: &mut Drawing, axes: &Panel, series: &ChartSeries) {
     let area = axes.area;
     let mut segments = Vec::new();
-    for ((x, y), (low, high)) in series.x.iter().zip(&series.y).zip(&series.bars) {
-        if axes.point(*x, *y).is_none() || low.is_nan() || high.is_nan() {
+    for ((x, y), (low, high)) in series.line.points().zip(&series.line.bars) {
+        if axes.point(x, y).is_none() || low.is_nan() || high.is_nan() {
             continue;
         }
-        let Some(x) = axes.x_at(*x) else { continue };
+        let Some(x) = axes.x_at(x) else { continue };
         let bottom = axes.y_at(*low).unwrap_or(area.bottom()).min(area.bottom());
         let top = axes.y_at(*high).unwrap_or(area.y).max(area.y);
         segments.push([(x, bottom), (x, top)]);

@@ -3,7 +3,7 @@
 use super::data::{CheckedPlot, DensityPlot, PlotError};
 use super::density_panel::{cloud_entries, cloud_notes, draw_cloud, outside, pair_density};
 use super::legend::{draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{AxesParts, Panel, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
 
 /// Draws the scatter plot as an SVG document.
@@ -21,8 +21,7 @@ pub fn cloud(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     let mut width = 0.72 * FIGURE_WIDTH;
     let mut height = 0.55 * FIGURE_WIDTH;
     let vertical = y_ticks(&y, height, 5.0);
-    let y_lines = label_lines(&labels[1], vertical.exponent, height).len();
-    let left = MARGIN + label_room(y_lines) + y_tick_room(&vertical);
+    let left = MARGIN + vertical.label_room(&labels[1], height) + y_tick_room(&vertical);
     let edge = MARGIN + 8.0;
     let mut panel_width = width - left - edge;
     // A unit has the same length along both axes. The frame takes the data's shape between two limits; beyond them an axis shows more than the data.
@@ -47,9 +46,8 @@ pub fn cloud(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
         y_label: &labels[1],
         y_tick_room: Some(tick_room),
     };
-    let x_lines = label_lines(&labels[0], parts.x_ticks.exponent, panel_width).len();
     panel.draw_axes(&mut drawing, &parts);
-    let bottom = panel.area.bottom() + x_axis_room(x_lines) + 2.0;
+    let bottom = panel.area.bottom() + x_axis_room(parts.x_ticks.label_room(&labels[0], panel_width)) + 2.0;
     let notes = cloud_notes(columns[0].len(), outside(&columns, &[x, y]), true);
     Ok(noted(drawing, width, bottom, &notes))
 }

@@ -5,7 +5,7 @@ use super::density_panel::{
     REFERENCE_SWATCH, cloud_entries, cloud_notes, draw_cloud, marginal_entries, marginals, outside, pair_density,
 };
 use super::legend::{draw_legend, entry_width, noted, titled};
-use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{AxesParts, ONE_LINE, Panel, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{Scale, Ticks};
 use super::style::{FIGURE_WIDTH, MARGIN};
 
@@ -36,8 +36,8 @@ pub fn corner(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     let guess = (width - 70.0) / dimension as f64 - GAP;
     let vertical: Vec<Ticks> = scales.iter().map(|scale| y_ticks(scale, guess, GAP / 2.0)).collect();
     let tick_room = vertical.iter().skip(1).map(y_tick_room).fold(8.0, f64::max);
-    let lines = (1..dimension).map(|row| label_lines(&labels[row], vertical[row].exponent, guess).len());
-    let left = MARGIN + label_room(lines.max().unwrap_or(1)) + tick_room;
+    let rooms = (1..dimension).map(|row| vertical[row].label_room(&labels[row], guess));
+    let left = MARGIN + rooms.reduce(f64::max).unwrap_or(ONE_LINE) + tick_room;
     let size = (width - left - MARGIN - 2.0 - GAP * (dimension - 1) as f64) / dimension as f64;
     let height = if dimension == 1 { 0.6 * size } else { size };
 
@@ -100,10 +100,8 @@ pub fn corner(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
             panel.draw_axes(&mut drawing, &parts);
         }
     }
-    let lines = (0..dimension)
-        .map(|axis| label_lines(&labels[axis], horizontal[axis].exponent, size).len())
-        .max();
-    let bottom = top + dimension as f64 * (height + GAP) - GAP + x_axis_room(lines.unwrap_or(0)) + 2.0;
+    let rooms = (0..dimension).map(|axis| horizontal[axis].label_room(&labels[axis], size));
+    let bottom = top + dimension as f64 * (height + GAP) - GAP + x_axis_room(rooms.fold(0.0, f64::max)) + 2.0;
     let hidden = outside(&columns, &scales);
     let notes = cloud_notes(columns[0].len(), hidden, dimension > 1);
     Ok(noted(drawing, width, bottom, &notes))

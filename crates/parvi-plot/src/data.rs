@@ -194,28 +194,20 @@ impl<'a> DensityPlot<'a> {
     }
 }
 
-/// The reference after its checks, with draws as columns.
-pub(super) enum CheckedReference<'a> {
-    None,
-    Draws {
-        columns: Vec<Vec<f64>>,
-        weights: Option<&'a [f64]>,
-    },
-    Exact {
-        marginals: &'a [Option<Curve>],
-        pairs: &'a [PairDensity],
-    },
+/// The reference after its checks.
+pub(super) struct CheckedReference<'a> {
+    pub given: Reference<'a>,
+    /// The columns of its draws; empty without any.
+    pub draws: Vec<Vec<f64>>,
 }
 
 impl<'a> Reference<'a> {
     /// Checks the reference against the dimension of the particles.
     pub(super) fn check(&self, dimension: usize) -> Result<CheckedReference<'a>, PlotError> {
+        let mut draws = Vec::new();
         match *self {
-            Reference::None => Ok(CheckedReference::None),
-            Reference::Draws(cloud) => Ok(CheckedReference::Draws {
-                columns: cloud.columns(dimension, dimension)?,
-                weights: cloud.weights,
-            }),
+            Reference::None => {}
+            Reference::Draws(cloud) => draws = cloud.columns(dimension, dimension)?,
             Reference::Exact { marginals, pairs } => {
                 if !marginals.is_empty() {
                     check_size(|| "marginals".to_string(), dimension, marginals.len())?;
@@ -233,23 +225,23 @@ impl<'a> Reference<'a> {
                         grid.values.len(),
                     )?;
                 }
-                Ok(CheckedReference::Exact { marginals, pairs })
             }
         }
+        Ok(CheckedReference { given: *self, draws })
     }
 }
 
 impl CheckedReference<'_> {
     /// The interval of coordinate `axis` that the figure should show for the reference's sake.
     fn interval(&self, axis: usize) -> Result<Option<(f64, f64)>, PlotError> {
-        match self {
-            CheckedReference::None => Ok(None),
-            CheckedReference::Draws { columns, weights } => {
+        match self.given {
+            Reference::None => Ok(None),
+            Reference::Draws(cloud) => {
                 // The extremes of many draws say little about where the density is.
-                let levels = weighted_quantile(&columns[axis], *weights, &[0.001, 0.999])?;
+                let levels = weighted_quantile(&self.draws[axis], cloud.weights, &[0.001, 0.999])?;
                 Ok(Some((levels[0], levels[1])))
             }
-            CheckedReference::Exact { marginals, pairs } => {
+            Reference::Exact { marginals, pairs } => {
                 if let Some(Some(curve)) = marginals.get(axis) {
                     return Ok(support(&curve.x, |index| curve.y[index]));
                 }

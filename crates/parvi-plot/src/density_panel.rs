@@ -3,7 +3,7 @@
 use crate::statistics::{DensityGrid, bandwidth, equidistant, kernel_density, kernel_density_grid, weighted_quantile};
 
 use super::contour::{contour_lines, levels_of_mass};
-use super::data::{CheckedPlot, CheckedReference, Curve, PlotError};
+use super::data::{CheckedPlot, CheckedReference, Curve, PlotError, Reference};
 use super::legend::{LegendEntry, Swatch};
 use super::panel::Panel;
 use super::scale::{Scale, plottable};
@@ -57,10 +57,10 @@ impl Marginal {
         Ok(Marginal {
             bars: histogram_bars(column, weights, scale)?,
             estimate: estimate(column, weights),
-            reference: match reference {
-                CheckedReference::None => None,
-                CheckedReference::Draws { columns, weights } => estimate(&columns[axis], *weights),
-                CheckedReference::Exact { marginals, .. } => marginals.get(axis).cloned().flatten(),
+            reference: match reference.given {
+                Reference::None => None,
+                Reference::Draws(cloud) => estimate(&reference.draws[axis], cloud.weights),
+                Reference::Exact { marginals, .. } => marginals.get(axis).cloned().flatten(),
             },
         })
     }
@@ -153,19 +153,19 @@ pub(super) fn pair_density(
     x: &Scale,
     y: &Scale,
 ) -> Option<DensityGrid> {
-    match reference {
-        CheckedReference::None => None,
-        CheckedReference::Draws { columns, weights } => {
-            let (first, second) = (&columns[horizontal], &columns[vertical]);
+    match reference.given {
+        Reference::None => None,
+        Reference::Draws(cloud) => {
+            let (first, second) = (&reference.draws[horizontal], &reference.draws[vertical]);
             // Wide enough that contours close before the grid ends.
             let range = |scale: &Scale| {
                 let (low, high) = scale.ends();
                 let margin = 0.08 * (high - low);
                 (low - margin, high + margin)
             };
-            kernel_density_grid(first, second, *weights, (range(x), range(y)), 110).ok()
+            kernel_density_grid(first, second, cloud.weights, (range(x), range(y)), 110).ok()
         }
-        CheckedReference::Exact { pairs, .. } => pairs
+        Reference::Exact { pairs, .. } => pairs
             .iter()
             .find(|pair| pair.horizontal == horizontal && pair.vertical == vertical)
             .map(|pair| pair.grid.clone()),

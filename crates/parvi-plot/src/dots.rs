@@ -2,8 +2,8 @@
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch, draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, label_lines, x_axis_room, x_ticks};
-use super::scale::{AxisKind, Scale, plottable};
+use super::panel::{AxesParts, Panel, x_axis_room, x_ticks};
+use super::scale::{AxisKind, Scale};
 use super::style::{FIGURE_WIDTH, GRID, GUIDE, MARGIN, SeriesStyle, TEXT_SIZE, crossed_styles, styles};
 use super::svg::{Drawing, Stroke};
 use super::text::{Anchor, TextStyle, width};
@@ -15,15 +15,6 @@ const SPREAD: f64 = 0.62;
 
 /// How wide the label of a row may be.
 const WIDEST_LABEL: f64 = 0.5 * FIGURE_WIDTH;
-
-/// A row.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct DotRow {
-    /// The setting.
-    pub label: String,
-    /// A value for comparison.
-    pub bound: Option<f64>,
-}
 
 /// A series with one value per row.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,14 +30,10 @@ pub struct DotSeries {
 /// A dot plot.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DotPlot {
-    /// The title; empty for none.
-    pub title: String,
     /// The label of the axis, with its unit.
     pub x_label: String,
-    /// The division of the axis.
-    pub x_axis: AxisKind,
-    /// The rows, from top to bottom.
-    pub rows: Vec<DotRow>,
+    /// The rows, from top to bottom: the setting, and a value for comparison, which is not a number where there is none.
+    pub rows: Vec<(String, f64)>,
     /// The series.
     pub series: Vec<DotSeries>,
     /// The text in the legend for the bounds.
@@ -58,14 +45,9 @@ pub struct DotPlot {
 impl DotPlot {
     /// Labelled rows with a bound each over a logarithmic axis, and no series yet.
     pub fn bounded(x_label: &str, rows: impl IntoIterator<Item = (String, f64)>, bound_label: &str) -> Self {
-        let row = |(label, bound)| DotRow {
-            label,
-            bound: Some(bound),
-        };
         Self {
             x_label: x_label.to_owned(),
-            x_axis: AxisKind::Logarithmic,
-            rows: rows.into_iter().map(row).collect(),
+            rows: rows.into_iter().collect(),
             bound_label: bound_label.to_owned(),
             ..Self::default()
         }
@@ -75,19 +57,23 @@ impl DotPlot {
     pub fn with_series(self, named: Vec<(String, Vec<f64>)>) -> Self {
         let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
         let styles = styles(&names);
-        let series = named.into_iter().zip(styles);
-        let series = series.map(|((label, values), style)| DotSeries { label, style, values });
-        let series = series.collect();
-        Self { series, ..self }
+        self.styled(styles, named)
     }
 
     /// The same with series of two numbers each, which have a value per row: colours tell the first numbers apart, markers the second ones.
     pub fn with_crossed(self, named: Vec<(String, [f64; 2], Vec<f64>)>) -> Self {
         let numbers: Vec<[f64; 2]> = named.iter().map(|(_, numbers, _)| *numbers).collect();
-        let series = named.into_iter().zip(crossed_styles(&numbers));
-        let series = series.map(|((label, _, values), style)| DotSeries { label, style, values });
-        let series = series.collect();
-        Self { series, ..self }
+        let named = named.into_iter().map(|(name, _, values)| (name, values));
+        self.styled(crossed_styles(&numbers), named)
+    }
+
+    fn styled(self, styles: Vec<SeriesStyle>, named: impl IntoIterator<Item = (String, Vec<f64>)>) -> Self {
+        let series = named.into_iter().zip(styles);
+        let series = series.map(|((label, values), style)| DotSeries { label, style, values });
+        Self {
+            series: series.collect(),
+            ..self
+        }
     }
 
     /// The same with a note below.
@@ -112,15 +98,13 @@ pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
         check_size(|| series.label.clone(), plot.rows.len(), series.values.len())?;
     }
     let values = || plot.series.iter().flat_map(|series| series.values.iter().copied());
-    let drawable = |value: &f64| plottable(*value) && (plot.x_axis != AxisKind::Logarithmic || *value > 0.0);
-    if !values().any(|value| drawable(&value)) {
+    if !values().any(|value| AxisKind::Logarithmic.can_show(value)) {
         return Err(PlotError::empty("dots"));
     }
-    let bounds = plot.rows.iter().filter_map(|row| row.bound);
-    let scale = Scale::around(values().chain(bounds), plot.x_axis, 0.04);
-
-    let (mut drawing, mut top) = titled(&plot.title, FIGURE_WIDTH);
-    let labels = plot.rows.iter().map(|row| width(&row.label, TEXT_SIZE));
+    let bounds = plot.rows.iter().map(|(_, bound)| *bound);
+    let scale = Scale::around(values().chain(bounds), AxisKind::Logarithmic, 0.04);
+    let (mut drawing, mut top) = titled("", FIGURE_WIDTH);
+    let labels = plot.rows.iter().map(|(label, _)| width(label, TEXT_SIZE));
     let left = MARGIN + labels.fold(0.0, f64::max).min(WIDEST_LABEL) + 6.0;
     let legend_room = FIGURE_WIDTH - left - MARGIN;
     let legend = draw_legend(&mut drawing, (left, top), legend_room, &legend_entries(plot));
@@ -139,8 +123,8 @@ pub fn dots(plot: &DotPlot) -> Result<String, PlotError> {
         ..AxesParts::default()
     };
     axes.draw_axes(&mut drawing, &parts);
-    let lines = label_lines(&plot.x_label, parts.x_ticks.exponent, axes.area.width).len();
-    let bottom = axes.area.bottom() + x_axis_room(lines) + 6.0;
+    let room = parts.x_ticks.label_room(&plot.x_label, axes.area.width);
+    let bottom = axes.area.bottom() + x_axis_room(room) + 6.0;
     Ok(noted(drawing, FIGURE_WIDTH, bottom - 4.0, &plot.notes))
 }
 
@@ -155,7 +139,7 @@ fn legend_entries(plot: &DotPlot) -> Vec<LegendEntry<'static>> {
         LegendEntry::new(swatch, &series.label)
     });
     let bound = LegendEntry::new(Swatch::Line(Stroke::dashed(GUIDE, 1.1)), &plot.bound_label);
-    let bounded = plot.rows.iter().any(|row| row.bound.is_some());
+    let bounded = plot.rows.iter().any(|(_, bound)| !bound.is_nan());
     series.chain(bounded.then_some(bound)).collect()
 }
 
@@ -165,12 +149,12 @@ fn draw_rows(drawing: &mut Drawing, axes: &Panel, plot: &DotPlot) {
     let ticks = x_ticks(&axes.x, area.width, 10.0);
     axes.draw_grid(drawing, &ticks, &Default::default());
     let middle = |row: usize| area.y + (row as f64 + 0.5) * ROW;
-    for (index, row) in plot.rows.iter().enumerate() {
+    for (index, (label, bound)) in plot.rows.iter().enumerate() {
         let y = middle(index);
         drawing.line((area.x, y), (area.right(), y), Stroke::solid(GRID, 0.6));
         let at = (area.x - 5.0, y + 0.36 * TEXT_SIZE);
-        drawing.fitted_text(at, &row.label, WIDEST_LABEL, TextStyle::plain(Anchor::End));
-        if let Some(x) = row.bound.and_then(|bound| axes.x_at(bound)) {
+        drawing.fitted_text(at, label, WIDEST_LABEL, TextStyle::plain(Anchor::End));
+        if let Some(x) = axes.x_at(*bound) {
             let (from, to) = ((x, y - 0.5 * ROW), (x, y + 0.5 * ROW));
             drawing.line(from, to, Stroke::dashed(GUIDE, 1.1));
         }

@@ -3,7 +3,7 @@
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch};
 use super::page::{Line, number};
-use super::panel::{Panel, label_lines, label_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{Panel, x_ticks, y_tick_room, y_ticks};
 use super::panel_grid::PanelGrid;
 use super::results::{Row, Rows};
 use super::scale::{Axis, Scale};
@@ -141,8 +141,7 @@ pub fn heat_map(plot: &HeatMapPlot) -> Result<String, PlotError> {
     let vertical = y_ticks(&y, PANEL_HEIGHT, 5.0);
     let columns = plot.panels.len().min(2);
     let tick_room = y_tick_room(&vertical);
-    let label_lines_left = label_lines(&plot.y.axis.label, vertical.exponent, PANEL_HEIGHT).len();
-    let left = MARGIN + tick_room + label_room(label_lines_left);
+    let left = MARGIN + tick_room + vertical.label_room(&plot.y.axis.label, PANEL_HEIGHT);
     let gap = tick_room + 12.0;
     let panel_width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
     let horizontal = x_ticks(&x, panel_width, 10.0);

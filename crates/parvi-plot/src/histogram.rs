@@ -3,7 +3,7 @@
 use super::data::{CheckedPlot, DensityPlot, PlotError};
 use super::density_panel::{cloud_notes, marginal_entries, marginals, outside};
 use super::legend::{draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{AxesParts, Panel, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::Scale;
 use super::style::{FIGURE_WIDTH, MARGIN};
 
@@ -52,10 +52,8 @@ pub fn histogram(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     let tick_room: Vec<f64> = (0..per_row)
         .map(|column| widest(column, &|axis| y_tick_room(&vertical[axis])))
         .collect();
-    let left_room = |column: usize| {
-        let lines = |axis: usize| label_lines(y_label(axis), vertical[axis].exponent, height).len();
-        tick_room[column] + widest(column, &|axis| label_room(lines(axis)))
-    };
+    let left_room =
+        |column: usize| tick_room[column] + widest(column, &|axis| vertical[axis].label_room(y_label(axis), height));
     let gap = 10.0;
     let left_rooms: f64 = (0..per_row).map(left_room).sum();
     let taken = left_rooms + gap * (per_row - 1) as f64 + 2.0 * MARGIN + 8.0;
@@ -66,10 +64,8 @@ pub fn histogram(plot: &DensityPlot<'_>) -> Result<String, PlotError> {
     let indent = MARGIN + left_room(0);
     top += draw_legend(&mut drawing, (indent, top), width - indent - MARGIN, &entries) + 8.0;
     let horizontal: Vec<_> = scales.iter().map(|x| x_ticks(x, panel_width, 8.0)).collect();
-    let lines = (0..dimension)
-        .map(|axis| label_lines(&labels[axis], horizontal[axis].exponent, panel_width).len())
-        .max();
-    let row_height = height + x_axis_room(lines.unwrap_or(0)) + 10.0;
+    let rooms = (0..dimension).map(|axis| horizontal[axis].label_room(&labels[axis], panel_width));
+    let row_height = height + x_axis_room(rooms.fold(0.0, f64::max)) + 10.0;
     for (axis, marginal) in marginals.iter().enumerate() {
         let (row, column) = (axis / per_row, axis % per_row);
         let left = MARGIN + (0..=column).map(left_room).sum::<f64>() + column as f64 * (panel_width + gap);

@@ -105,45 +105,35 @@ fn draw_swatch(drawing: &mut Drawing, (x, y): (f64, f64), swatch: Swatch<'_>) {
 /// A drawing of this width with its title at the top, and where the rest begins.
 pub fn titled(title: &str, width: f64) -> (Drawing, f64) {
     let mut drawing = Drawing::new(title);
-    let top = MARGIN + draw_title(&mut drawing, (MARGIN, MARGIN), width - 2.0 * MARGIN, title);
-    (drawing, top)
-}
-
-/// Draws the figure's title, wrapped to `room`, and returns the height taken.
-fn draw_title(drawing: &mut Drawing, at: (f64, f64), room: f64, title: &str) -> f64 {
     let style = TextStyle {
         bold: true,
         ..TextStyle::sized(TITLE_SIZE, Anchor::Start)
     };
     // Bold letters are about a tenth wider.
-    let lines = wrap(title, room / 1.1, TITLE_SIZE);
+    let room = (width - 2.0 * MARGIN) / 1.1;
+    let lines = wrap(title, room, TITLE_SIZE);
     for (index, line) in lines.iter().enumerate() {
-        let baseline = at.1 + TITLE_SIZE * (0.85 + 1.25 * index as f64);
-        drawing.fitted_text((at.0, baseline), line, room / 1.1, style);
+        let baseline = MARGIN + TITLE_SIZE * (0.85 + 1.25 * index as f64);
+        drawing.fitted_text((MARGIN, baseline), line, room, style);
     }
-    if lines.is_empty() {
-        0.0
-    } else {
-        lines.len() as f64 * 1.25 * TITLE_SIZE + 3.0
-    }
+    let taken = match lines.len() {
+        0 => 0.0,
+        count => count as f64 * 1.25 * TITLE_SIZE + 3.0,
+    };
+    (drawing, MARGIN + taken)
 }
 
 /// The document of a drawing with notes from `bottom` on.
 pub fn noted(mut drawing: Drawing, width: f64, bottom: f64, notes: &[String]) -> String {
-    let height = draw_notes(&mut drawing, (MARGIN, bottom), width - 2.0 * MARGIN, notes);
-    drawing.finish(width, bottom + height + MARGIN)
-}
-
-/// Draws notes below a figure, each wrapped to `room`, and returns the height taken.
-fn draw_notes(drawing: &mut Drawing, at: (f64, f64), room: f64, notes: &[String]) -> f64 {
+    let room = width - 2.0 * MARGIN;
     let lines: Vec<String> = notes.iter().flat_map(|note| wrap(note, room, TEXT_SIZE)).collect();
     for (index, line) in lines.iter().enumerate() {
-        let baseline = at.1 + 4.0 + TEXT_SIZE * (0.85 + 1.3 * index as f64);
-        drawing.text((at.0, baseline), line, TextStyle::plain(Anchor::Start));
+        let baseline = bottom + 4.0 + TEXT_SIZE * (0.85 + 1.3 * index as f64);
+        drawing.text((MARGIN, baseline), line, TextStyle::plain(Anchor::Start));
     }
-    if lines.is_empty() {
-        0.0
-    } else {
-        lines.len() as f64 * 1.3 * TEXT_SIZE + 4.0
-    }
+    let taken = match lines.len() {
+        0 => 0.0,
+        count => count as f64 * 1.3 * TEXT_SIZE + 4.0,
+    };
+    drawing.finish(width, bottom + taken + MARGIN)
 }

@@ -40,7 +40,7 @@ mod trace;
 pub use cloud::cloud;
 pub use corner::corner;
 pub use data::{Curve, DensityPlot, PairDensity, PlotError, PointCloud, Reference};
-pub use dots::{DotPlot, DotRow, DotSeries, dots};
+pub use dots::{DotPlot, DotSeries, dots};
 pub use heat_map::{CellAxis, HeatMapPlot, HeatPanel, cell_of, heat_map, logarithmic_edges};
 pub use histogram::histogram;
 pub use line_series::{GuideCurve, LineSeries};

@@ -1,6 +1,5 @@
 //! Lines as figures take them: measured ones, and theoretical ones beside them.
 
-use super::data::Curve;
 use super::statistics::summarize;
 
 /// A labelled sequence of points.
@@ -79,10 +78,8 @@ impl LineSeries {
 /// A theoretical curve for comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GuideCurve {
-    /// The text in the legend; guides with the same text share an entry.
-    pub label: String,
-    /// The curve.
-    pub curve: Curve,
+    /// The curve; guides with the same text in the legend share an entry.
+    pub line: LineSeries,
     /// Whether it is dotted; else dashed.
     pub dotted: bool,
 }
@@ -90,12 +87,8 @@ pub struct GuideCurve {
 impl GuideCurve {
     /// The values at some places.
     fn at(label: impl Into<String>, x: Vec<f64>, dotted: bool, value: impl Fn(f64) -> f64) -> Self {
-        let y = x.iter().copied().map(value).collect();
-        Self {
-            label: label.into(),
-            curve: Curve { x, y },
-            dotted,
-        }
+        let line = LineSeries::through(label, x.into_iter().map(|x| (x, value(x))));
+        Self { line, dotted }
     }
 
     /// A dashed curve through places between two ends, each as many times the one before.

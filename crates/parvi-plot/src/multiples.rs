@@ -4,7 +4,7 @@ use super::chart::{Chart, Legend};
 use super::data::PlotError;
 use super::line_series::{GuideCurve, LineSeries};
 use super::scale::{Axis, AxisKind};
-use super::series::{ChartPanel, ChartSeries, Connection, ReferenceLevel};
+use super::series::{ChartPanel, ChartSeries, DASHED, DOTTED, ReferenceLevel, SOLID};
 
 /// One setting, e.g. one dimension.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -114,6 +114,12 @@ impl MultiplesPlot {
     }
 }
 
+/// The dashes of a line that shows none, one or more lines below it.
+const SHOWING: [&str; 3] = [SOLID, DASHED, DOTTED];
+
+/// Colours that come again have dashes of their own where there are no markers to tell them apart.
+const OF_TURNS: [&str; 3] = ["9 3", "6 2 1.2 2", "2.5 1.5"];
+
 /// Of a panel's range what a line is wide.
 const LINE_SHARE: f64 = 0.01;
 
@@ -125,42 +131,28 @@ pub fn multiples(plot: &MultiplesPlot) -> Result<String, PlotError> {
     let all = plot.panels.iter().flat_map(|panel| &panel.series);
     let legend = Legend::of(all.map(|series| &series.label));
     let bare = plot.look == Look::Traces;
-    let line = |series: &LineSeries| {
-        let label = if bare && legend.len() < 2 { "" } else { &series.label };
-        ChartSeries {
-            bars: series.bars.clone(),
-            // A line of one point is invisible.
-            markers: !bare || series.x.len() == 1,
-            ..ChartSeries::line(label, legend.style(&series.label), &series.x, &series.y)
-        }
-    };
     let mut panels = Vec::with_capacity(plot.panels.len());
     for panel in &plot.panels {
-        let mut series: Vec<ChartSeries> = panel.series.iter().map(line).collect();
-        if bare {
-            let looks = panel.series.iter().enumerate().map(|(index, line)| {
-                // Colours that come again have dashes of their own, as there are no markers to tell them apart.
-                match legend.turn(&line.label) {
-                    0 => with_gaps(hidden_by(&panel.series, index)),
-                    1 => Connection::LongDashed,
-                    2 => Connection::DashDotted,
-                    _ => Connection::ShortDashed,
-                }
-            });
-            let gaps: Vec<Connection> = looks.collect();
-            series
-                .iter_mut()
-                .zip(gaps)
-                .for_each(|(series, gaps)| series.connection = gaps);
-        }
-        for guide in &panel.guides {
-            let dashes = if guide.dotted {
-                Connection::Dotted
-            } else {
-                Connection::Dashed
+        let line = |(index, line): (usize, &LineSeries)| {
+            let label = if bare && legend.len() < 2 { "" } else { &line.label };
+            let dash = match legend.turn(&line.label) {
+                _ if !bare => SOLID,
+                0 => SHOWING[hidden_by(&panel.series, index).min(2)],
+                turn => OF_TURNS[turn.min(3) - 1],
             };
-            series.push(ChartSeries::guide(&guide.label, &guide.curve, dashes)?);
-        }
+            ChartSeries {
+                style: legend.style(&line.label),
+                dash: Some(dash),
+                // A line of one point is invisible.
+                markers: !bare || line.x.len() == 1,
+                line: LineSeries {
+                    label: label.to_owned(),
+                    ..line.clone()
+                },
+            }
+        };
+        let lines = panel.series.iter().enumerate().map(line);
+        let series = lines.chain(panel.guides.iter().map(ChartSeries::guide)).collect();
         panels.push(ChartPanel {
             title: panel.title.clone(),
             x: plot.x.clone(),
@@ -200,13 +192,4 @@ fn hidden_by(series: &[LineSeries], index: usize) -> usize {
     let is_near = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || (a - b).abs() <= LINE_SHARE * (high - low);
     let is_hidden = |other: &&LineSeries| line.x == other.x && line.y.iter().zip(&other.y).all(is_near);
     series[index + 1..].iter().filter(is_hidden).count()
-}
-
-/// A line that shows as many lines below.
-fn with_gaps(hidden: usize) -> Connection {
-    match hidden {
-        0 => Connection::Solid,
-        1 => Connection::Dashed,
-        _ => Connection::Dotted,
-    }
 }

@@ -40,6 +40,22 @@ pub struct AxesParts<'a> {
     pub y_tick_room: Option<f64>,
 }
 
+impl Ticks {
+    /// The room that a label needs beside an axis of this length with these ticks.
+    pub fn label_room(&self, label: &str, length: f64) -> f64 {
+        match label_lines(label, self.exponent, length).len() {
+            0 => 0.0,
+            lines => lines as f64 * LINE_HEIGHT + 5.0,
+        }
+    }
+
+    /// Where its ticks are, and how long.
+    fn lengths(&self) -> impl Iterator<Item = (f64, f64)> {
+        let minor = self.minor.iter().map(|&fraction| (fraction, MINOR_TICK));
+        minor.chain(self.major.iter().map(|&(fraction, _)| (fraction, MAJOR_TICK)))
+    }
+}
+
 impl Panel {
     /// Scales on an area of this width and height with its top left corner there.
     pub fn at(corner: (f64, f64), size: (f64, f64), x: Scale, y: Scale) -> Self {
@@ -101,15 +117,11 @@ impl Panel {
         let axis = Stroke::solid(INK, AXIS_WIDTH);
         let bottom = area.bottom();
         let mut segments = Vec::new();
-        let ticks = parts.x_ticks.minor.iter().map(|f| (f, MINOR_TICK));
-        let ticks = ticks.chain(parts.x_ticks.major.iter().map(|t| (&t.0, MAJOR_TICK)));
-        for (fraction, length) in ticks {
+        for (fraction, length) in parts.x_ticks.lengths() {
             let x = area.x + fraction * area.width;
             segments.push([(x, bottom), (x, bottom + length)]);
         }
-        let ticks = parts.y_ticks.minor.iter().map(|f| (f, MINOR_TICK));
-        let ticks = ticks.chain(parts.y_ticks.major.iter().map(|t| (&t.0, MAJOR_TICK)));
-        for (fraction, length) in ticks {
+        for (fraction, length) in parts.y_ticks.lengths() {
             let y = bottom - fraction * area.height;
             segments.push([(area.x - length, y), (area.x, y)]);
         }
@@ -165,7 +177,7 @@ fn whole<'a>(line: &'a str, label: &'a str) -> &'a str {
 }
 
 /// An axis label with the power of ten that the tick labels leave out, in a few lines not much longer than the axis; what has no room is cut, but never the power.
-pub fn label_lines(label: &str, exponent: i32, length: f64) -> Vec<String> {
+fn label_lines(label: &str, exponent: i32, length: f64) -> Vec<String> {
     let power = format!("(×{})", power_of_ten(exponent));
     let label = if exponent == 0 {
         label.to_string()
@@ -204,18 +216,12 @@ pub fn label_lines(label: &str, exponent: i32, length: f64) -> Vec<String> {
     lines
 }
 
-/// The room that an axis label of so many lines needs beside the tick labels.
-pub fn label_room(lines: usize) -> f64 {
-    if lines == 0 {
-        0.0
-    } else {
-        lines as f64 * LINE_HEIGHT + 5.0
-    }
-}
+/// The room of a label of one line.
+pub const ONE_LINE: f64 = LINE_HEIGHT + 5.0;
 
-/// The room that a horizontal axis needs below its frame for ticks, tick labels and a label of so many lines.
-pub fn x_axis_room(lines: usize) -> f64 {
-    MAJOR_TICK + TICK_GAP + TEXT_SIZE + label_room(lines)
+/// The room below a frame for ticks, tick labels and a label that needs so much.
+pub fn x_axis_room(label: f64) -> f64 {
+    MAJOR_TICK + TICK_GAP + TEXT_SIZE + label
 }
 
 /// Horizontal ticks for an axis `length` points long. Labels that would stick out of the axis by more than `overhang` are
@@ -225,7 +231,7 @@ pub fn x_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
         let half = 0.5 * width(label, TEXT_SIZE);
         fraction * length - half >= -overhang && fraction * length + half <= length + overhang
     };
-    let mut ticks = scale.ticks(|labels| {
+    let ticks = scale.ticks(|labels| {
         let kept: Vec<&(f64, String)> = labels.iter().filter(|label| inside(label)).collect();
         let apart = kept.windows(2).all(|pair| {
             let room = 0.5 * (width(&pair[0].1, TEXT_SIZE) + width(&pair[1].1, TEXT_SIZE));
@@ -233,40 +239,34 @@ pub fn x_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
         });
         apart.then_some(kept.len())
     });
-    for tick in &mut ticks.major {
-        if !inside(tick) {
-            tick.1.clear();
-        }
-    }
-    thin_minor_ticks(scale, &mut ticks, length);
-    ticks
+    thin(scale, ticks, length, inside)
 }
 
-/// Leaves out the minor ticks of a linear axis where they would stand closer than 3 points.
-fn thin_minor_ticks(scale: &Scale, ticks: &mut Ticks, length: f64) {
+/// The ticks without the labels that are not inside, and without the minor ticks of a linear axis where they would stand closer than 3 points.
+fn thin(scale: &Scale, mut ticks: Ticks, length: f64, inside: impl Fn(&(f64, String)) -> bool) -> Ticks {
+    ticks
+        .major
+        .iter_mut()
+        .filter(|tick| !inside(tick))
+        .for_each(|tick| tick.1.clear());
     let count = ticks.minor.len() + ticks.major.len();
     if !scale.logarithmic && count as f64 * 3.0 > length {
         ticks.minor.clear();
     }
+    ticks
 }
 
 /// Vertical ticks for an axis `length` points long; labels that would stick out by more than `overhang` are left off.
 pub fn y_ticks(scale: &Scale, length: f64, overhang: f64) -> Ticks {
     let half = 0.5 * TEXT_SIZE - overhang;
     let inside = |(fraction, _): &(f64, String)| (half..=length - half).contains(&(fraction * length));
-    let mut ticks = scale.ticks(|labels| {
+    let ticks = scale.ticks(|labels| {
         let apart = labels
             .windows(2)
             .all(|pair| (pair[1].0 - pair[0].0) * length >= 1.6 * TEXT_SIZE);
         apart.then(|| labels.iter().filter(|label| inside(label)).count())
     });
-    for tick in &mut ticks.major {
-        if !inside(tick) {
-            tick.1.clear();
-        }
-    }
-    thin_minor_ticks(scale, &mut ticks, length);
-    ticks
+    thin(scale, ticks, length, inside)
 }
 
 /// The room that the tick labels of a vertical axis need to the left of its frame.

@@ -1,7 +1,7 @@
 //! Panels of one size on common axes, in rows.
 
 use super::legend::{LegendEntry, draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, x_axis_room, y_tick_room};
+use super::panel::{AxesParts, Panel, TITLE_ROOM, x_axis_room, y_tick_room};
 use super::scale::{Scale, Ticks};
 use super::style::FIGURE_WIDTH;
 use super::svg::Drawing;
@@ -33,18 +33,6 @@ impl PanelGrid<'_> {
     ) -> String {
         let (mut drawing, mut top) = titled(title, FIGURE_WIDTH);
         top += draw_legend(&mut drawing, (self.left, top), room, legend) + 6.0;
-        top = self.draw(&mut drawing, top, panels, content);
-        noted(drawing, FIGURE_WIDTH, top - 4.0, notes)
-    }
-
-    /// Draws titled panels with their content from `top` on, and returns where they end.
-    fn draw<T>(
-        &self,
-        drawing: &mut Drawing,
-        mut top: f64,
-        panels: &[(&str, T)],
-        content: impl Fn(&mut Drawing, &Panel, &T),
-    ) -> f64 {
         let (width, height) = self.size;
         let ((x, x_ticks, x_label), (y, y_ticks, y_label)) = (&self.x, &self.y);
         let rows = panels.chunks(self.columns);
@@ -54,7 +42,7 @@ impl PanelGrid<'_> {
             for (column, (title, panel)) in members.iter().enumerate() {
                 let left = self.left + column as f64 * (width + self.gap);
                 let axes = Panel::at((left, top + TITLE_ROOM), self.size, *x, *y);
-                content(drawing, &axes, panel);
+                content(&mut drawing, &axes, panel);
                 let parts = AxesParts {
                     x_ticks: x_ticks.clone(),
                     y_ticks: y_ticks.clone(),
@@ -62,15 +50,15 @@ impl PanelGrid<'_> {
                     y_label: if column == 0 { y_label } else { "" },
                     y_tick_room: Some(y_tick_room(y_ticks)),
                 };
-                axes.draw_axes(drawing, &parts);
-                axes.draw_title(drawing, title);
+                axes.draw_axes(&mut drawing, &parts);
+                axes.draw_title(&mut drawing, title);
             }
-            let lines = match x_label {
-                "" => 0,
-                label => label_lines(label, x_ticks.exponent, width).len(),
+            let label = match x_label {
+                "" => 0.0,
+                label => x_ticks.label_room(label, width),
             };
-            top += TITLE_ROOM + height + x_axis_room(lines) + 6.0;
+            top += TITLE_ROOM + height + x_axis_room(label) + 6.0;
         }
-        top
+        noted(drawing, FIGURE_WIDTH, top - 4.0, notes)
     }
 }

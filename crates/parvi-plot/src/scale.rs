@@ -80,19 +80,21 @@ pub struct Ticks {
     pub exponent: i32,
 }
 
+/// The least, the least above zero and the largest of the values that can be drawn.
+fn extremes(values: impl IntoIterator<Item = f64>) -> [f64; 3] {
+    let drawn = values.into_iter().filter(|&value| plottable(value));
+    let first = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+    drawn.fold(first, |[least, positive, most], value| {
+        let above_zero = if value > LEAST { value } else { f64::INFINITY };
+        [least.min(value), positive.min(above_zero), most.max(value)]
+    })
+}
+
 impl Scale {
     /// A scale for `values` with a margin of `padding` times their span on both sides. Without any drawable value it is
     /// 0…1 (1…10), around a single one an interval that contains it.
     pub fn around(values: impl IntoIterator<Item = f64>, kind: AxisKind, padding: f64) -> Scale {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut smallest_positive = f64::INFINITY;
-        for value in values.into_iter().filter(|&value| plottable(value)) {
-            low = low.min(value);
-            high = high.max(value);
-            if value > LEAST {
-                smallest_positive = smallest_positive.min(value);
-            }
-        }
+        let [low, smallest_positive, high] = extremes(values);
         let logarithmic = match kind {
             AxisKind::Linear => false,
             AxisKind::Logarithmic => true,
@@ -117,14 +119,7 @@ impl Scale {
 
     /// Whether an axis that chooses for itself is linear because of zeros alone: without them it would be logarithmic.
     pub fn is_linear_for_zeros(values: impl IntoIterator<Item = f64>, kind: AxisKind) -> bool {
-        let (mut least, mut positive, mut most) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
-        for value in values.into_iter().filter(|&value| plottable(value)) {
-            least = least.min(value);
-            most = most.max(value);
-            if value > LEAST {
-                positive = positive.min(value);
-            }
-        }
+        let [least, positive, most] = extremes(values);
         kind == AxisKind::Automatic && least == 0.0 && most / positive > LOGARITHMIC_FROM
     }
 

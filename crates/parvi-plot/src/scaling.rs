@@ -7,7 +7,7 @@ use super::data::{PlotError, check_size};
 use super::line_series::{GuideCurve, LineSeries};
 use super::multiples::MultiplesPanel;
 use super::scale::Axis;
-use super::series::{ChartPanel, ChartSeries, Connection};
+use super::series::{ChartPanel, ChartSeries, SOLID};
 use super::style::styles;
 use super::text::decimal;
 
@@ -54,13 +54,6 @@ impl ScalingPlot {
     }
 }
 
-/// The power law of one series as the figure fits it: over its positive, finite points with x ≥ `from`; `None` where
-/// fewer than two different sizes are left.
-fn scaling_fit(series: &LineSeries, from: f64) -> Option<PowerLaw> {
-    let (x, y) = usable(series, from);
-    fit_power_law(&x, &y).ok()
-}
-
 /// An exponent with its 95 % interval for a reader: "0.98 ± 0.02", or "0.98" without an interval.
 pub fn exponent_text(law: &PowerLaw, index: usize) -> String {
     let Some(exponent) = law.exponents.get(index) else {
@@ -76,10 +69,10 @@ pub fn exponent_text(law: &PowerLaw, index: usize) -> String {
     }
 }
 
-fn usable(series: &LineSeries, from: f64) -> (Vec<f64>, Vec<f64>) {
+/// Its positive, finite points.
+fn usable(series: &LineSeries) -> impl Iterator<Item = (f64, f64)> {
     let positive = |value: f64| value.is_finite() && value > 0.0;
-    let points = series.points();
-    points.filter(|&(x, y)| positive(x) && positive(y) && x >= from).unzip()
+    series.points().filter(move |&(x, y)| positive(x) && positive(y))
 }
 
 /// Draws measurements and fits on logarithmic axes as an SVG document. Points that are not positive are left out.
@@ -88,38 +81,38 @@ fn usable(series: &LineSeries, from: f64) -> (Vec<f64>, Vec<f64>) {
 /// [`PlotError::Empty`] if no point can be drawn, [`PlotError::Size`] if lengths differ.
 pub fn scaling(plot: &ScalingPlot) -> Result<String, PlotError> {
     let names: Vec<&str> = plot.panel.series.iter().map(|s| s.label.as_str()).collect();
-    let mut lines = Vec::new();
-    let mut points = Vec::new();
-    let mut fits = 0;
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
     for (series, style) in plot.panel.series.iter().zip(styles(&names)) {
         check_size(|| series.label.clone(), series.x.len(), series.y.len())?;
-        let (x, y) = usable(series, 0.0);
         let mut label = series.label.clone();
-        if let Some(law) = scaling_fit(series, plot.from) {
+        // Fewer than two different sizes have no power law.
+        let fitted: (Vec<f64>, Vec<f64>) = usable(series).filter(|(x, _)| *x >= plot.from).unzip();
+        if let Ok(law) = fit_power_law(&fitted.0, &fitted.1) {
             label = format!("{label}: b = {}", exponent_text(&law, 0));
-            fits += 1;
-            let fitted = x.iter().copied().filter(|x| *x >= plot.from);
-            let low = fitted.clone().fold(f64::INFINITY, f64::min);
-            let high = fitted.fold(0.0, f64::max);
+            let low = fitted.0.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = fitted.0.iter().copied().fold(0.0, f64::max);
             lines.push(ChartSeries {
+                line: LineSeries::through("", [low, high].map(|x| (x, law.value(&[x])))),
+                style,
+                dash: Some(SOLID),
                 markers: false,
-                ..ChartSeries::line("", style, &[low, high], &[law.value(&[low]), law.value(&[high])])
             });
         }
         points.push(ChartSeries {
-            connection: Connection::None,
-            ..ChartSeries::line(&label, style, &x, &y)
+            line: LineSeries::through(label, usable(series)),
+            style,
+            dash: None,
+            markers: true,
         });
     }
-    if points.iter().all(|series| series.x.is_empty()) {
+    if points.iter().all(|series| series.line.x.is_empty()) {
         return Err(PlotError::empty("series"));
     }
-    for guide in &plot.panel.guides {
-        lines.push(ChartSeries::guide(&guide.label, &guide.curve, Connection::Dashed)?);
-    }
+    let is_fitted = !lines.is_empty();
     points.extend(lines);
+    points.extend(plot.panel.guides.iter().map(ChartSeries::guide));
     let mut notes = Vec::new();
-    if fits > 0 {
+    if is_fitted {
         let symbol = &plot.symbol;
         let range = if plot.from > 0.0 {
             format!(", {symbol} ≥ {}", plot.from)

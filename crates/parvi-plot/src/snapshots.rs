@@ -2,7 +2,7 @@
 
 use super::data::{PlotError, check_size};
 use super::legend::{LegendEntry, Swatch};
-use super::panel::{Panel, label_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{ONE_LINE, Panel, x_ticks, y_tick_room, y_ticks};
 use super::panel_grid::PanelGrid;
 use super::scale::{AxisKind, Scale, plottable};
 use super::style::{FIGURE_WIDTH, MARGIN};
@@ -74,7 +74,7 @@ pub fn snapshots(plot: &SnapshotsPlot) -> Result<String, PlotError> {
     let columns = plot.columns.clamp(1, plot.panels.len());
     // Left margin, gap, width and height with so much room for the labels of vertical ticks.
     let layout = |room: f64| {
-        let (left, gap) = (MARGIN + room + 4.0 + label_room(1), room + 6.0);
+        let (left, gap) = (MARGIN + room + 4.0 + ONE_LINE, room + 6.0);
         let width = (FIGURE_WIDTH - left - MARGIN - 8.0 - gap * (columns - 1) as f64) / columns as f64;
         let height = (width / (high[0] - low[0]) * (high[1] - low[1])).clamp(20.0, 640.0);
         (left, gap, width, height)

@@ -3,7 +3,7 @@
 use super::data::{CheckedReference, PlotError, PointCloud, Reference, coordinate_labels};
 use super::density_panel::{cloud_entries, cloud_notes, draw_cloud, outside, pair_density};
 use super::legend::{draw_legend, noted, titled};
-use super::panel::{AxesParts, Panel, TITLE_ROOM, label_lines, label_room, x_axis_room, x_ticks, y_tick_room, y_ticks};
+use super::panel::{AxesParts, Panel, TITLE_ROOM, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale};
 use super::style::{FIGURE_WIDTH, MARGIN};
 
@@ -74,8 +74,7 @@ pub fn strip(plot: &StripPlot<'_>) -> Result<String, PlotError> {
     // The ticks' labels need room that their number, which follows the height, decides; a first guess of it serves.
     let guess = shape * FIGURE_WIDTH / COLUMNS as f64;
     let tick_room = y_tick_room(&y_ticks(&y, guess, 5.0));
-    let y_lines = label_lines(&labels[1], y_ticks(&y, guess, 5.0).exponent, guess).len();
-    let left = MARGIN + tick_room + label_room(y_lines);
+    let left = MARGIN + tick_room + y_ticks(&y, guess, 5.0).label_room(&labels[1], guess);
     let taken = left + GAP * (COLUMNS - 1) as f64 + MARGIN + 8.0;
     let width = (FIGURE_WIDTH - taken) / COLUMNS as f64;
     let height = shape * width;
@@ -87,7 +86,7 @@ pub fn strip(plot: &StripPlot<'_>) -> Result<String, PlotError> {
     let density = pair_density(&reference, 0, 1, &x, &y);
     let entries = cloud_entries(density.is_some().then_some(plot.reference_label));
     top += draw_legend(&mut drawing, (left, top), total - left - MARGIN, &entries) + 4.0;
-    let x_lines = label_lines(&labels[0], horizontal.exponent, width).len();
+    let x_label_room = horizontal.label_room(&labels[0], width);
     let rows = plot.panels.len().div_ceil(COLUMNS);
     for (index, (panel, cloud)) in plot.panels.iter().zip(&clouds).enumerate() {
         let (row, column) = (index / COLUMNS, index % COLUMNS);
@@ -114,7 +113,7 @@ pub fn strip(plot: &StripPlot<'_>) -> Result<String, PlotError> {
         axes.draw_axes(&mut drawing, &parts);
         axes.draw_title(&mut drawing, panel.title);
     }
-    let bottom = top + rows as f64 * (height + TITLE_ROOM + GAP) - GAP + x_axis_room(x_lines) + 2.0;
+    let bottom = top + rows as f64 * (height + TITLE_ROOM + GAP) - GAP + x_axis_room(x_label_room) + 2.0;
     Ok(noted(drawing, total, bottom, &notes(plot, &clouds, &[x, y])))
 }
 

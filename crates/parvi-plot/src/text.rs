@@ -90,16 +90,8 @@ fn runs(label: &str) -> Vec<Run> {
 
 /// The character that is this one as a superscript, for those of whole numbers.
 fn superscript(character: char) -> Option<char> {
-    Some(match character {
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4'..='9' => char::from_u32('⁴' as u32 + (character as u32 - '4' as u32))?,
-        '-' | '−' => '⁻',
-        '+' => '⁺',
-        _ => return None,
-    })
+    let place = "0123456789-−+".chars().position(|known| known == character)?;
+    "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻⁺".chars().nth(place)
 }
 
 /// The label without its markup, e.g. for a document's title.
@@ -196,18 +188,9 @@ fn advance(character: char) -> f64 {
 
 /// Escapes the characters that XML reserves and drops the control characters that it forbids.
 pub fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            c if c.is_control() || c == '\u{fffe}' || c == '\u{ffff}' => escaped.push(' '),
-            c => escaped.push(c),
-        }
-    }
-    escaped
+    let is_forbidden = |c: char| c.is_control() || c == '\u{fffe}' || c == '\u{ffff}';
+    let allowed = text.replace(is_forbidden, " ").replace('&', "&amp;");
+    allowed.replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// A coordinate with at most two decimals and no superfluous zeros. Not a number becomes 0: no drawing may contain it.
@@ -215,17 +198,11 @@ pub fn number(value: f64) -> String {
     if !value.is_finite() {
         return "0".to_string();
     }
-    let mut text = format!("{:.2}", value.clamp(-1e6, 1e6));
-    while text.ends_with('0') {
-        text.pop();
+    let text = format!("{:.2}", value.clamp(-1e6, 1e6));
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".to_string(),
+        shortest => shortest.to_string(),
     }
-    if text.ends_with('.') {
-        text.pop();
-    }
-    if text == "-0" {
-        text.remove(0);
-    }
-    text
 }
 
 /// A number for a reader: a true minus sign, `decimals` decimals.

@@ -52,31 +52,19 @@ pub struct TimeErrorPanel {
 impl TimeErrorPanel {
     /// The settings of a target's curve for a method; both begin where they are not yet among the panels.
     pub fn settings<'a>(panels: &'a mut Vec<Self>, target: &str, method: &str) -> &'a mut Vec<Vec<(f64, f64)>> {
-        let panel = position_or(
-            panels,
-            |panel| panel.target == target,
-            || Self {
-                target: target.to_owned(),
-                ..Self::default()
-            },
-        );
+        let panel = place(panels, |panel| panel.target == target);
+        panels[panel].target = target.to_owned();
         let curves = &mut panels[panel].curves;
-        let curve = position_or(
-            curves,
-            |curve| curve.method == method,
-            || TimeErrorCurve {
-                method: method.to_owned(),
-                settings: Vec::new(),
-            },
-        );
+        let curve = place(curves, |curve| curve.method == method);
+        curves[curve].method = method.to_owned();
         &mut curves[curve].settings
     }
 }
 
-/// The place of the entry that is looked for; a new one at the end where there is none.
-fn position_or<T>(entries: &mut Vec<T>, is_it: impl Fn(&T) -> bool, new: impl FnOnce() -> T) -> usize {
+/// The place of an entry, behind all others and empty if there is none yet.
+fn place<T: Default>(entries: &mut Vec<T>, is_it: impl Fn(&T) -> bool) -> usize {
     entries.iter().position(is_it).unwrap_or_else(|| {
-        entries.push(new());
+        entries.push(T::default());
         entries.len() - 1
     })
 }

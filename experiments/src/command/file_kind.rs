@@ -26,12 +26,10 @@ impl FileKind {
         match Self::of_file(file) {
             Some(found) if found != self => {
                 let ((found, command), (expected, _)) = (found.told(), self.told());
-                Err(CommandError::OtherKind {
-                    file: file.display().to_string(),
-                    found,
-                    command,
-                    expected,
-                })
+                let file = file.display();
+                Err(CommandError::OtherKind(format!(
+                    "{file} seems to be {found}, which `{command}` takes; this command takes {expected}"
+                )))
             }
             _ => Ok(()),
         }

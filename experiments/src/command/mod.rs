@@ -34,7 +34,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     /// List the targets: names, dimensions, parameters and what is known about each
-    Targets(targets::Arguments),
+    Targets,
     /// Sample a target and write the particles to a file
     Sample(Box<sample::Arguments>),
     /// Run a study; resumes if the directory holds a part of it
@@ -59,7 +59,7 @@ pub fn main() -> ExitCode {
         }
     };
     let result = match line.command {
-        Command::Targets(arguments) => targets::execute(&arguments),
+        Command::Targets => targets::execute(),
         Command::Sample(arguments) => sample::execute(&arguments),
         Command::Run(arguments) => run::execute(&arguments),
         Command::Simulate(arguments) => simulate::execute(&arguments),
@@ -86,7 +86,7 @@ fn exit_code(error: &CommandError) -> u8 {
     match error {
         CommandError::Files(error) if error.is_of_request() => 2,
         CommandError::Flag(_)
-        | CommandError::OtherKind { .. }
+        | CommandError::OtherKind(_)
         | CommandError::LeftOut { .. }
         | CommandError::Sample(
             SampleError::InvalidOption { .. }

@@ -31,9 +31,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         return rom::report(directory);
     }
     if FileKind::of_file(&directory.join(CONFIGURATION)) == Some(FileKind::Experiment) {
-        return Err(CommandError::Untrained {
-            directory: directory.display().to_string(),
-        });
+        let directory = directory.display();
+        return Err(CommandError::Refused(format!(
+            "{directory} holds a training that is not finished: the same `parvi rom train` goes on with it, and reports are of reduced runs"
+        )));
     }
     if directory.join(SCENE).exists() {
         return simulate::report(directory);

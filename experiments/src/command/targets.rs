@@ -1,16 +1,11 @@
 //! `parvi targets`: the catalogue.
 
-use clap::Args;
 use parvi_targets::{TargetInfo, catalogue};
 
 use crate::{CommandError, console};
 
-/// No arguments.
-#[derive(Args)]
-pub struct Arguments {}
-
 /// Lists names, dimensions, parameters with defaults, and what is known.
-pub fn execute(_arguments: &Arguments) -> Result<(), CommandError> {
+pub fn execute() -> Result<(), CommandError> {
     let width = catalogue().iter().map(|info| info.name.len()).max().unwrap_or(0);
     let entries: Vec<String> = catalogue().iter().map(|info| entry(info, width)).collect();
     console::print(&entries.join("\n"))

@@ -43,7 +43,7 @@ pub fn attempt<T>(result: Result<T, CommandError>) -> Result<Attempt<T>, Command
             CommandError::Sample(
                 SampleError::InvalidOption { .. } | SampleError::NotBuilt { .. } | SampleError::Interrupted { .. },
             ) => return Err(error),
-            CommandError::NotFinite { .. } | CommandError::Metric(_) | CommandError::Sample(_) => Status::Diverged,
+            CommandError::NotFinite(_) | CommandError::Metric(_) | CommandError::Sample(_) => Status::Diverged,
             _ => return Err(error),
         };
         Ok(Err(Failure::new(status, error)))

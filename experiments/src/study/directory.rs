@@ -29,7 +29,7 @@ impl StudyDirectory {
     /// Takes a directory for a study: a new one, an empty one, or one that holds a part of the same study.
     ///
     /// # Errors
-    /// [`CommandError::DirectoryOccupied`] if it holds something else, which is left untouched;
+    /// [`CommandError::Refused`] if it holds something else, which is left untouched;
     /// [`CommandError::Files`] if it cannot be made or written, or another process runs a study in it.
     pub fn claim(path: &Path, configuration: &Configuration) -> Result<Self, CommandError> {
         let mut directory = Self::of(path, configuration);
@@ -67,12 +67,13 @@ impl StudyDirectory {
     /// A directory in which a study was run before.
     ///
     /// # Errors
-    /// [`CommandError::NothingToReport`] for a directory without a configuration.
+    /// [`CommandError::Refused`] for a directory without a configuration.
     pub fn existing(path: &Path) -> Result<(Self, Configuration), CommandError> {
         if path.is_dir() && !path.join(CONFIGURATION).exists() {
-            return Err(CommandError::NothingToReport {
-                directory: path.display().to_string(),
-            });
+            let path = path.display();
+            return Err(CommandError::Refused(format!(
+                "{path} holds no results: a study has its config.toml there, a simulated scene its scene.toml, a reduced-order model its model.safetensors"
+            )));
         }
         let configuration = Configuration::read(&path.join(CONFIGURATION))?;
         let directory = Self::of(path, &configuration);
@@ -110,9 +111,6 @@ impl StudyDirectory {
     }
 
     fn check_empty(&self) -> Result<(), CommandError> {
-        if !self.path.exists() {
-            return Ok(());
-        }
         let entries = fs::read_dir(&self.path).map_err(|source| CommandError::file("write", &self.path, source))?;
         for entry in entries {
             let entry = entry.map_err(|source| CommandError::file("read", &self.path, source))?;
@@ -125,10 +123,7 @@ impl StudyDirectory {
     }
 
     fn occupied(&self, occupant: String) -> CommandError {
-        CommandError::DirectoryOccupied {
-            directory: self.path.display().to_string(),
-            occupant,
-        }
+        CommandError::occupied(&self.path, &occupant)
     }
 
     /// A page whose prose names values of the configuration by their keys, and these.

@@ -25,7 +25,7 @@ impl ResultsFile {
     /// columns, with spaces between; the rows so far come with it.
     ///
     /// # Errors
-    /// [`CommandError::Files`], [`CommandError::DirectoryOccupied`] if another process works on it, or
+    /// [`CommandError::Files`], [`CommandError::Refused`] if another process works on it, or
     /// [`CommandError::Files`] with the line that does not fit.
     pub fn open(path: &Path, columns: &'static str) -> Result<(Self, Vec<Row>), CommandError> {
         let failed = |operation| move |source| CommandError::file(operation, path, source);
@@ -34,10 +34,7 @@ impl ResultsFile {
         let mut file = options.open(path).map_err(failed("write"))?;
         // A file system without locks does not keep a single process from working.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(CommandError::DirectoryOccupied {
-                directory: path.display().to_string(),
-                occupant: "is being written by another process".to_owned(),
-            });
+            return Err(CommandError::occupied(path, "is being written by another process"));
         }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed("read"))?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use parvi_files::AtomicFile;
 use parvi_options::is_among;
 
-use super::value::{Written, read as cell};
+use super::value::read as cell;
 use crate::CommandError;
 use crate::plots::results::Row;
 
@@ -25,8 +25,7 @@ pub fn fill<'a>(
         writer.write_record(columns.split(' '))?;
     }
     for row in rows {
-        let cells: Vec<Written<'_>> = columns.split(' ').map(|column| Written(row.value(column))).collect();
-        writer.serialize(cells)?;
+        writer.serialize(columns.split(' ').map(|column| row.value(column)).collect::<Vec<_>>())?;
     }
     writer.flush()
 }

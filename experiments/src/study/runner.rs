@@ -75,10 +75,8 @@ fn in_threads<T: Send>(
     work: impl FnOnce() -> Result<T, CommandError> + Send,
 ) -> Result<T, CommandError> {
     let Some(threads) = threads else { return work() };
-    let refused = |error: ThreadPoolBuildError| CommandError::Threads {
-        threads,
-        reason: error.to_string(),
-    };
+    let refused =
+        |error: ThreadPoolBuildError| CommandError::Refused(format!("cannot start {threads} threads: {error}"));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(refused)?.install(work)
 }
@@ -134,7 +132,7 @@ fn run_missing<S: Study>(
         let mut row = case.row.clone();
         progress.begin(case.id(), case.cost);
         if interrupt::requested() {
-            return Err(CommandError::Interrupted { hint: String::new() });
+            return Err(CommandError::Interrupted(String::new()));
         }
         let tools = Tools {
             yardstick: &mut yardstick,
@@ -153,7 +151,7 @@ fn run_missing<S: Study>(
     let all = cases.len();
     let hint = format!(": {kept} of {all} cases are kept; the same command resumes with the next one");
     result.map_err(|error| match error.is_interruption() {
-        true => CommandError::Interrupted { hint },
+        true => CommandError::Interrupted(hint),
         false => error,
     })
 }

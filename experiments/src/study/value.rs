@@ -1,7 +1,6 @@
 //! What stands in a cell of results.csv.
 
 use parvi_options::is_among;
-use serde::{Serialize, Serializer};
 
 use super::status::Status;
 use crate::plots::results::Value;
@@ -29,20 +28,6 @@ pub fn read(column: &str, text: &str) -> Result<Value, String> {
     let number = || text.parse().map(Value::Number);
     let value = text.parse().map(Value::Count).or_else(|_| number());
     value.map_err(|_| format!("`{text}` in the column `{column}` is no number"))
-}
-
-/// A cell as it is written.
-pub struct Written<'a>(pub &'a Value);
-
-impl Serialize for Written<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            Value::Empty => serializer.serialize_none(),
-            Value::Text(text) => serializer.serialize_str(text),
-            Value::Count(count) => serializer.serialize_u64(*count),
-            Value::Number(number) => serializer.serialize_f64(*number),
-        }
-    }
 }
 
 /// A text for one cell: without line breaks, so that a file whose last line has no end was cut off.

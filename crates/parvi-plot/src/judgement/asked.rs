@@ -117,38 +117,28 @@ impl Judgement {
             } => vec![("reference", *reference), ("tolerance", *tolerance)],
         };
         numbers.extend(self.at().iter().map(|x| ("at", Some(*x))));
-        let is_nan = |(_, value): &&(&str, Option<f64>)| value.is_some_and(f64::is_nan);
-        if let Some((key, _)) = numbers.iter().find(is_nan) {
-            return Some((*key, "NaN: must be a number".to_owned()));
-        }
-        let below_zero =
-            |(key, value): &&(&str, Option<f64>)| *key == "tolerance" && value.is_some_and(|value| value < 0.0);
-        if let Some((key, Some(value))) = numbers.iter().find(below_zero) {
-            return Some((*key, format!("{value}: must be at least 0, or nothing can keep it")));
-        }
-        if let Self::PowerLaw {
-            from: Some(from),
-            to: Some(to),
-            ..
-        } = self
-            && from > to
-        {
-            return Some((
-                "from",
-                format!("{from}: must be at most `to` = {to}, or no x is between them"),
-            ));
-        }
-        let Self::Bound {
-            reference, tolerance, ..
-        } = self
-        else {
-            return None;
+        let fault = |(key, value): &(&'static str, Option<f64>)| match (*key, (*value)?) {
+            (key, value) if value.is_nan() => Some((key, "NaN: must be a number".to_owned())),
+            ("tolerance", value) if value < 0.0 => {
+                let message = format!("{value}: must be at least 0, or nothing can keep it");
+                Some(("tolerance", message))
+            }
+            _ => None,
         };
-        let missing = [("reference", reference.is_none()), ("tolerance", tolerance.is_none())];
-        let (key, _) = missing
-            .into_iter()
-            .find(|(_, is_missing)| *is_missing && !rows_have_limits)?;
-        Some((key, "is missing: what is read has none of its own".to_owned()))
+        let missing = |key| Some((key, "is missing: what is read has none of its own".to_owned()));
+        numbers.iter().find_map(fault).or_else(|| match self {
+            Self::PowerLaw {
+                from: Some(from),
+                to: Some(to),
+                ..
+            } if from > to => {
+                let message = format!("{from}: must be at most `to` = {to}, or no x is between them");
+                Some(("from", message))
+            }
+            Self::Bound { reference: None, .. } if !rows_have_limits => missing("reference"),
+            Self::Bound { tolerance: None, .. } if !rows_have_limits => missing("tolerance"),
+            _ => None,
+        })
     }
 }
 

@@ -74,18 +74,13 @@ pub fn counted(count: usize, many: &str) -> String {
 
 /// A text that Markdown shows as it is within a line: without `<` before it `>` closes nothing.
 pub fn escaped(text: &str) -> String {
-    let mut shown = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => shown.push_str("&amp;"),
-            '<' => shown.push_str("&lt;"),
-            // A line's end is one of the table's.
-            '\n' | '\r' => shown.push(' '),
-            '*' | '`' | '[' | ']' | '\\' | '~' => shown.extend(['\\', character]),
-            _ => shown.push(character),
-        }
-    }
-    shown
+    let escape = |character: char| "*`[]\\~".contains(character).then_some('\\');
+    let shown = text
+        .chars()
+        .flat_map(|character| escape(character).into_iter().chain([character]));
+    // A line's end is one of the table's.
+    let shown = shown.collect::<String>().replace(['\n', '\r'], " ");
+    shown.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 /// What stands in a table for a value that does not exist.

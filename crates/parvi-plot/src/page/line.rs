@@ -29,19 +29,8 @@ impl<'a> Line<'a> {
 
     /// The same with the numbers of a contest: `better`, `ties`, `worse`, and `neither`.
     pub fn with_contest(self, contest: Contest) -> Self {
-        let Contest {
-            better,
-            ties,
-            worse,
-            neither,
-        } = contest;
-        let counts = [
-            ("better", better),
-            ("ties", ties),
-            ("worse", worse),
-            ("neither", neither),
-        ];
-        self.with_all(counts.map(|(name, count)| (name.to_owned(), count)))
+        let line = self.with("better", contest.better).with("ties", contest.ties);
+        line.with("worse", contest.worse).with("neither", contest.neither)
     }
 
     /// The same with statistics of other rows, behind a word.

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::Value;
-use crate::page::Cell;
 
 /// What one case gave, by the names of the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,10 +67,5 @@ impl Row {
     /// Whether a number is at most so much; not where there is none.
     pub fn is_within(&self, column: &str, most: f64) -> bool {
         self.number(column).is_some_and(|number| number <= most)
-    }
-
-    /// Cells as they stand in a table, by the names of their columns with ` | ` between them.
-    pub fn cells(&self, columns: &str) -> Vec<String> {
-        columns.split(" | ").map(|column| self.value(column).cell()).collect()
     }
 }

@@ -4,11 +4,6 @@ use super::{Row, Rows, Value};
 use crate::page::{Cell, MISSING, exponent, percent};
 
 impl Rows<'_> {
-    /// Statistics as they stand in a table, with ` | ` between them; see [`cell`](Self::cell).
-    pub fn cells(&self, statistics: &str) -> Vec<String> {
-        statistics.split(" | ").map(|statistic| self.cell(statistic)).collect()
-    }
-
     /// A statistic as it stands in a table: `rows`, their number; a column by its name, that of the first row; of a column `first`, `text` (the first that there is, with all its digits),
     /// `each` (those of all rows), `median`, `median of all` (the rows without it infinitely large, ∞), `quantile 0.95`, `percent` (of a share, the mean), `least`, `largest`, `farthest` (the
     /// largest distance from zero), `worst` (the case with the largest), `middle` and `last` of those in order of size, as they stand (of an even number the larger in the middle); `fixed 4`, `signed 2` and `scientific 1`, the first with so many decimals; and `exponent of size in column`, of the power law through its medians.

@@ -1,6 +1,6 @@
 //! E\[f\] of a user's function, with its error.
 
-use parvi_pool::unit_of_squares;
+use parvi_pool::{Estimate, unit_of_squares};
 use parvi_targets::{Target, scores_in_calls};
 
 use super::Expectation;
@@ -10,13 +10,19 @@ use crate::Samples;
 /// What of f may be unexplained before polynomials of a higher degree are tried.
 const EXPLAINED: f64 = 0.05;
 
+/// Points that carry an estimate of the pool at least for it to speak against the scores.
+const CARRIERS: f64 = 100.0;
+
+/// Standard errors by which the two have to differ for that.
+const CONTRADICTION: f64 = 5.0;
+
 /// The expectation of `f` over the particles of any method, the target's own by the scores at the particles (one evaluation each), and
-/// an error estimate.
+/// an error estimate. Where the method has a pool, f is evaluated at its points, too, and the estimate is that of smaller error of the scores and of [`Pool::expectation`](parvi_pool::Pool::expectation), or the pool's where the two
+/// contradict each other.
 ///
 /// `None` if the particles are too few (fewer than 8 D) or lie in a plane, or where a score or a value is not finite. The scores know nothing of the
 /// masses of separate pieces: where particles are in several, the part between these counts as unexplained; of one that none is in nothing is said.
-/// Nor do they know of edges: where the density falls to zero at once `estimate` may be anything, with little unexplained, and the standard error of the average is too large by as much. [`Pool::expectation`](parvi_pool::Pool::expectation)
-/// is right there.
+/// Nor do they know of edges: where the density falls to zero at once their estimate may be anything, with little unexplained, and the standard error of the average is too large by as much; of methods without a pool it is the only one.
 ///
 /// Of an event that no particle meets the average is 0 and its standard error, too, whatever the event's probability is: M particles know of probabilities from about 1/M on (docs/limitations.md).
 pub fn expectation<const D: usize>(
@@ -24,8 +30,28 @@ pub fn expectation<const D: usize>(
     samples: &Samples<D>,
     f: impl Fn(&[f64; D]) -> f64,
 ) -> Option<Expectation> {
-    let values: Vec<f64> = samples.positions.iter().map(f).collect();
-    (Compiled::of().of_values)(target, samples, &values)
+    let values: Vec<f64> = samples.positions.iter().map(&f).collect();
+    let found = (Compiled::of().of_values)(target, samples, &values)?;
+    let known = samples.pool.as_ref().map(|pool| pool.expectation(f));
+    Some(known.map_or(found, |known| with_pool(found, &known, samples.positions.len() as f64)))
+}
+
+/// The same with the estimate of the pool, where that is the better one or has to be believed.
+fn with_pool(found: Expectation, pool: &Estimate, particles: f64) -> Expectation {
+    let error = found.unexplained / particles.sqrt();
+    let difference = (found.estimate - pool.value).abs();
+    let contradicted = difference > CONTRADICTION * error.hypot(pool.standard_error);
+    // False for a pool that has no number to say.
+    let better = pool.standard_error < error || contradicted;
+    if !(pool.carriers >= CARRIERS && difference.is_finite() && better) {
+        return found;
+    }
+    Expectation {
+        estimate: pool.value,
+        unexplained: pool.standard_error * particles.sqrt(),
+        standard_error: (pool.value - found.average).hypot(pool.standard_error),
+        ..found
+    }
 }
 
 /// What is compiled for a dimension.
@@ -84,6 +110,45 @@ mod tests {
         let exact = (-2f64).exp();
         assert!((wave.average - exact).abs() <= 3.0 * wave.standard_error, "{wave:?}");
         assert!(expectation(&target, &samples, |x| x[0].ln()).is_none());
+    }
+
+    /// Stein's identity does not hold where a density ends: by the scores alone the mean is 0 with nothing unexplained, and E\[sin 5x\] anything.
+    #[test]
+    fn the_pool_knows_of_edges() {
+        struct HalfNormal;
+        impl Target<1> for HalfNormal {
+            fn log_density(&self, x: &[f64; 1]) -> f64 {
+                if x[0] > 0.0 {
+                    -0.5 * x[0] * x[0]
+                } else {
+                    f64::NEG_INFINITY
+                }
+            }
+
+            fn score(&self, x: &[f64; 1]) -> [f64; 1] {
+                [-x[0]]
+            }
+        }
+        let (options, run) = (MpmOptions::default(), Run::new(500, 3));
+        let samples = options.sample(&HalfNormal, &parvi_targets::Frame::identity(), &run, &mut Silent);
+        let samples = samples.expect("particles");
+        // E[sin 5x] = (2 / √π) F(5 / √2) with Dawson's integral F.
+        for (f, exact) in [
+            (
+                Box::new(|x: &[f64; 1]| x[0]) as Box<dyn Fn(&[f64; 1]) -> f64>,
+                0.797_884_560_8,
+            ),
+            (Box::new(|x: &[f64; 1]| x[0] * x[0]), 1.0),
+            (Box::new(|x: &[f64; 1]| (5.0 * x[0]).sin()), 0.166_953_959_1),
+        ] {
+            let found = expectation(&HalfNormal, &samples, f).expect("an expectation");
+            let error = found.unexplained / 500_f64.sqrt();
+            assert!(
+                (found.estimate - exact).abs() < 4.0 * error + 1e-9,
+                "{exact}: {found:?}"
+            );
+            assert!(error < 0.01 && found.standard_error < 0.02, "{exact}: {found:?}");
+        }
     }
 
     #[test]

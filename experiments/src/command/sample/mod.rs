@@ -141,7 +141,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     file.write(&outcome.particles, &names)?;
     said::warn(arguments, &outcome, &names);
     if let Some(file) = pool {
-        file.write(outcome.pool.as_ref().ok_or(CommandError::NoPool)?, &names)?;
+        let nothing = || CommandError::Refused(NO_POOL.to_owned());
+        file.write(outcome.pool.as_ref().ok_or_else(nothing)?, &names)?;
     }
     if let (Some(file), Some(watched)) = (best, &outcome.watched) {
         file.write(&watched.best, &names)?;
@@ -171,6 +172,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     }
     console::print_pairs(&pairs)
 }
+
+/// What is said of a pool that was asked for where there is none.
+const NO_POOL: &str =
+    "--pool: nothing could be weighed, so that there is no pool; the particles are those of a body without a survey";
 
 /// Draws the pictures into a directory and returns the names of their files.
 fn draw(
@@ -220,9 +225,7 @@ fn resumable(error: CommandError, arguments: &Arguments) -> CommandError {
     match (&error, &arguments.checkpoint) {
         (CommandError::Sample(SampleError::Interrupted { step }), Some(path)) if path.exists() => {
             let file = path.display();
-            CommandError::Interrupted {
-                hint: format!(" after step {step}: the same command goes on from {file}"),
-            }
+            CommandError::Interrupted(format!(" after step {step}: the same command goes on from {file}"))
         }
         _ => error,
     }

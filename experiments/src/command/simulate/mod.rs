@@ -45,9 +45,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     console::print_pairs(&pairs(arguments, &summary, seconds))?;
     match summary.outcome {
         Outcome::Finished => Ok(()),
-        Outcome::Interrupted => Err(CommandError::Interrupted {
-            hint: "; the same line started again goes on".to_owned(),
-        }),
+        Outcome::Interrupted => Err(CommandError::Interrupted(
+            "; the same line started again goes on".to_owned(),
+        )),
     }
 }
 

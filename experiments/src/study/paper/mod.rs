@@ -102,7 +102,7 @@ fn end(row: &mut Row, errors: Attempt<Errors>, step: Option<usize>) -> Option<Er
 
 fn reason(error: &CommandError) -> Reason {
     let CommandError::Sample(error) = error else {
-        let overflows = matches!(error, CommandError::NotFinite { .. });
+        let overflows = matches!(error, CommandError::NotFinite(_));
         return (if overflows { "not finite" } else { "other" }, None);
     };
     let word = match error {

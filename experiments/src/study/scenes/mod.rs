@@ -131,7 +131,7 @@ fn finished<'a>(
     observer: &mut Bar,
 ) -> Result<FinishedRun<'a>, CommandError> {
     match FinishedRun::of(scene, directory.raw(&scene.fingerprint), observer) {
-        Ok(run) => run.ok_or(CommandError::Interrupted { hint: String::new() }),
+        Ok(run) => run.ok_or(CommandError::Interrupted(String::new())),
         Err(SimulationError::Scene(error)) => Err(variant.refuse(error.without_line())),
         Err(error) if error.is_of_run() => Err(Failure::new(Status::Diverged, format!("{what}{error}")).into()),
         Err(error) => Err(error.into()),

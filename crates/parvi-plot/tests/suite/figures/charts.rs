@@ -39,7 +39,7 @@ fn scalings_state_their_exponents() {
     ];
     let plot = ScalingPlot::over(("particles M", "M"), "time per step (s)", settings, 0.0);
     let mut plot = plot.beside_powers([("dense grid".to_owned(), 4)], 1e3);
-    let guide = &plot.panel.guides[0].curve;
+    let guide = &plot.panel.guides[0].line;
     assert!(guide.x[0] == 100.0 && guide.y.iter().all(|y| *y <= most * (1.0 + 1e-9)));
     assert!(
         guide.y[20] > 0.999 * most,
@@ -131,11 +131,7 @@ fn small_multiples_share_styles_and_legend() {
         bars: vec![(0.09, 0.11), (0.02, 0.04), (0.0, 0.02)],
     };
     let guide = |label: &str, dotted: bool| GuideCurve {
-        label: label.to_string(),
-        curve: Curve {
-            x: vec![128.0, 2048.0],
-            y: vec![0.1, 0.025],
-        },
+        line: LineSeries::through(label, [(128.0, 0.1), (2048.0, 0.025)]),
         dotted,
     };
     let panel = |title: &str, names: &[&str]| MultiplesPanel {
@@ -165,7 +161,7 @@ fn small_multiples_share_styles_and_legend() {
         assert!(svg.contains(text), "{text}");
     }
     assert_eq!(svg.matches(">first<").count(), 1, "one entry in the legend");
-    plot.panels[0].guides[0].curve.x.pop();
+    plot.panels[0].guides[0].line.x.pop();
     assert!(matches!(multiples(&plot), Err(PlotError::Size { .. })));
     assert_empty(multiples(&MultiplesPlot::default()));
     let only = |x: f64, y: f64| MultiplesPanel::new("", [LineSeries::through("line", [(x, y)])]);
@@ -186,18 +182,12 @@ fn dots_have_a_row_per_setting() {
         style: style(index),
         values: values.to_vec(),
     };
-    let row = |label: &str, bound: Option<f64>| DotRow {
-        label: label.to_string(),
-        bound,
-    };
     let mut plot = DotPlot {
         x_label: "ED^{2}".to_string(),
-        x_axis: AxisKind::Logarithmic,
-        rows: vec![row("ring", Some(0.3)), row("banana & co", None)],
+        rows: vec![("ring".to_string(), 0.3), ("banana & co".to_string(), f64::NAN)],
         series: vec![series("near", 0, &[0.1, 20.0]), series("far", 1, &[-1.0, f64::NAN])],
         bound_label: "bound".to_string(),
         notes: vec!["A note.".to_string()],
-        ..DotPlot::default()
     };
     let svg = dots(&plot).unwrap();
     assert_well_formed(&svg);
@@ -206,7 +196,7 @@ fn dots_have_a_row_per_setting() {
     }
     // Two drawn values and two swatches in the legend.
     assert_eq!(svg.matches("<circle").count(), 3);
-    plot.rows[0].bound = None;
+    plot.rows[0].1 = f64::NAN;
     assert!(!dots(&plot).unwrap().contains(">bound<"));
     plot.series[0].values.pop();
     assert!(matches!(dots(&plot), Err(PlotError::Size { .. })));

@@ -27,7 +27,7 @@ proptest! {
         let bars = values.iter().map(|v| (v.1, v.2)).collect();
         let series = LineSeries { label: "s".into(), x: x.clone(), y: y.clone(), bars };
         let dot_series = DotSeries { label: "s".into(), style: style::sequence_style(0), values: x.clone() };
-        let dot_rows = y.iter().map(|y| DotRow { label: "r".into(), bound: Some(*y) }).collect();
+        let dot_rows = y.iter().map(|y| ("r".into(), *y)).collect();
         let shares = y.iter().skip(1).map(|y| Some(*y)).collect();
         let heat_panel = HeatPanel { title: "t".into(), shares };
         let heat = HeatMapPlot { x: CellAxis { edges: x.clone(), ..Default::default() }, y: CellAxis { edges: vec![1.0, 2.0], ..Default::default() }, panels: vec![heat_panel], ..Default::default() };

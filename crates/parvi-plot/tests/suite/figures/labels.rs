@@ -25,17 +25,13 @@ fn labels_that_have_no_room_are_cut_and_titles_of_their_elements() {
         .collect();
     assert!(shown.iter().all(|text| text.chars().count() < 120), "{shown:?}");
     assert!(svg.contains("(×10⁻⁷)"), "the power of an axis stays");
-    let row = DotRow {
-        label: word.clone(),
-        bound: None,
-    };
     let series = DotSeries {
         label: "s".into(),
         style: style::sequence_style(0),
         values: vec![1.0],
     };
     let plot = DotPlot {
-        rows: vec![row],
+        rows: vec![(word.clone(), f64::NAN)],
         series: vec![series],
         ..DotPlot::default()
     };
