@@ -1,12 +1,11 @@
 //! A thick-walled cylinder under pressure from inside (Lamé & Clapeyron 1831), in plane strain.
 
-use mpm_mesh::{CellSearch, recovered};
 use mpm_tensor::Matrix;
 
 use super::parts::{Rows, Run, solid, unfit};
-use crate::background::Background;
+use super::plane_stress::{point, recovered_stresses, stresses};
 use crate::scene::ShapeTable;
-use crate::{Scene, SceneFault, Snapshot, ValidationRow};
+use crate::{Scene, Snapshot, ValidationRow};
 
 /// A ring of radii a < b with pressure p at a, small strains, plane strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,49 +96,17 @@ impl ThickWalledCylinder {
     }
 }
 
-/// A particle's entry in a list of plane vectors.
-fn point(last: &Snapshot, list: &[f64], particle: usize) -> [f64; 2] {
-    let entry = last.vector(list, particle).and_then(|x| x.try_into().ok());
-    entry.unwrap_or([f64::NAN; 2])
-}
-
-/// The stresses of the particles in the plane.
-fn stresses(last: &Snapshot) -> Vec<Matrix<2>> {
-    let entry = |p| match last.tensor(&last.stresses, p) {
-        Some(&[xx, xy, yx, yy]) => Matrix([[xx, xy], [yx, yy]]),
-        _ => Matrix::from_fn(|_, _| f64::NAN),
-    };
-    (0..last.len()).map(entry).collect()
-}
-
-/// The stresses of the particles as [`recovered`] on the mesh of the scene; as they are on a grid.
-///
-/// # Errors
-/// [`SceneFault::Value`] for a mesh that cannot be made again.
-fn recovered_stresses(run: &Run, stresses: Vec<Matrix<2>>) -> Result<Vec<Matrix<2>>, SceneFault> {
-    let Background::Mesh { whole, .. } = Background::<2>::build(run.scene)? else {
-        return Ok(stresses);
-    };
-    let last = run.last;
-    let points: Vec<[f64; 2]> = (0..last.len()).map(|p| point(last, &last.positions, p)).collect();
-    Ok(recovered(
-        &CellSearch::new(whole),
-        &points,
-        &last.reference_volumes,
-        &stresses,
-    ))
-}
-
 /// Displacements and stresses at rest within 2 % of Lamé's, root mean squares over the particles over the largest: stresses of single particles, and recovered ones.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a scene that is no such ring.
+/// [`crate::SceneFault::Value`] for a scene that is no such ring.
 pub(super) fn validate(run: &Run) -> Rows {
     let expected = "for a ring of one elastic solid with a pressure on facets";
     let ring = ThickWalledCylinder::of(run.scene).ok_or_else(|| unfit(run.scene, expected))?;
     let single = stresses(run.last);
     let of_single = ring.error_of_stresses(run.last, &single);
-    let of_recovered = ring.error_of_stresses(run.last, &recovered_stresses(run, single)?);
+    let recovered = recovered_stresses(run, &single, &[])?;
+    let of_recovered = ring.error_of_stresses(run.last, &recovered);
     let displacement = ring.error_of_displacements(run);
     Ok(vec![
         ValidationRow::at_most("error of displacements / largest", displacement, 0.02),

@@ -1,6 +1,8 @@
 //! Which scenes a reference describes: what sets its problem apart, and all that its comparison reads.
 
 use super::cylinder::ThickWalledCylinder;
+use super::hertz::CylinderOnPlane;
+use super::kirsch::PlateWithHole;
 use super::parts::{gravity, sides, solid, spacing};
 use super::{slope_run_out, tilted_cantilever};
 use crate::Scene;
@@ -79,6 +81,14 @@ pub const CHANNEL: Problem = Problem(
 pub const CYLINDER: Problem = Problem(
     |scene| scene.dimension == 2 && ThickWalledCylinder::of(scene).is_some(),
     "a plane ring (a sphere less a smaller one about its centre) of one elastic material, with a pressure on facets",
+);
+pub const KIRSCH: Problem = Problem(
+    |scene| scene.dimension == 2 && PlateWithHole::of(scene).is_some(),
+    "a plane body of one elastic material less a sphere, with a traction along x on the facets `x-upper`",
+);
+pub const HERTZ: Problem = Problem(
+    |scene| scene.dimension == 2 && CylinderOnPlane::of(scene).is_some(),
+    "a plane sphere of one elastic material under gravity along -y, above a half-space as the barrier with its normal along y, without friction",
 );
 pub const EXPANSION: Problem = Problem(
     |scene| scene.dimension == 3 && scene.barrier.is_some(),

@@ -4,7 +4,7 @@ use super::needs::{self, Problem};
 use super::parts::{Rows, Run};
 use super::{
     Displacement, axis_aligned, cantilever, channel, conservation, cylinder, dam_break, expansion, generalized_vortex,
-    slope_run_out, tilted_cantilever, two_disks, vibrating_bar,
+    hertz, kirsch, slope_run_out, tilted_cantilever, two_disks, vibrating_bar,
 };
 use crate::values::within;
 use crate::{ManufacturedSolution, Scene, SceneFault, Series, Snapshot};
@@ -15,7 +15,7 @@ type Reference = (&'static str, Problem, fn(&Run) -> Rows);
 /// A manufactured solution for the material of a scene.
 type Manufacture = fn(&Scene) -> Result<Box<dyn ManufacturedSolution>, SceneFault>;
 
-const VALIDATIONS: [Reference; 17] = [
+const VALIDATIONS: [Reference; 19] = [
     ("axis-aligned", needs::AXIS_ALIGNED, axis_aligned::validate),
     ("cantilever-dynamic", needs::CANTILEVER, cantilever::validate_dynamic),
     (
@@ -31,6 +31,8 @@ const VALIDATIONS: [Reference; 17] = [
         needs::GENERALIZED_VORTEX,
         generalized_vortex::validate,
     ),
+    ("hertz", needs::HERTZ, hertz::validate),
+    ("kirsch", needs::KIRSCH, kirsch::validate),
     ("two-disks", needs::TWO_DISKS, two_disks::validate),
     ("umls-bar", needs::BAR_WITH_PROBE, vibrating_bar::validate_on_mesh),
     ("umls-cantilever", needs::TILTED_CANTILEVER, tilted_cantilever::validate),

@@ -29,7 +29,7 @@ fn a_reference_is_for_scenes_of_its_own_problem() {
         name => name.to_owned(),
     };
     let scenes = with_references();
-    assert_eq!(scenes.len(), 21);
+    assert_eq!(scenes.len(), 23);
     for (scene, own) in &scenes {
         for other in references().iter().filter(|other| kind(other) != kind(own)) {
             // Momenta are kept in every plane scene that nothing pulls.

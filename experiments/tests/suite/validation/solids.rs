@@ -55,3 +55,27 @@ fn the_spinning_square_keeps_its_momenta() {
         end.rows
     );
 }
+
+/// Hertz's contact, two spacings to its half-width, where particles follow the surface; a lattice stands on its lowest row.
+#[test]
+fn the_cylinder_is_flattened_as_by_hertz() {
+    let filled = |spacing: &str, fill: &str| {
+        let changes = [
+            ("spacing = 0.02", spacing),
+            ("gravity_ramp = 0.5", "gravity_ramp = 0.3"),
+            ("end = 1.0", "end = 0.6"),
+            ("\ninterval = 1.0", "\ninterval = 0.6"),
+            ("\"vertices\"", fill),
+        ];
+        run("hertz_cylinder", &changes)
+    };
+    let coarse = filled("spacing = 0.05", "\"vertices\"");
+    for name in ["half-width", "error of stresses near", "error of stresses above"] {
+        assert!(coarse.row(name).passes(), "{:?}", coarse.rows);
+    }
+    for row in &coarse.rows {
+        pinned("hertz_cylinder, 0.05", &row.quantity, row.measured);
+    }
+    let on_a_lattice = filled("spacing = 0.1", "\"regular\"").row("half-width").measured;
+    assert!(on_a_lattice > 1.8, "{on_a_lattice}");
+}

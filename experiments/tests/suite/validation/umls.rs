@@ -146,3 +146,25 @@ fn the_hole_in_a_graded_mesh_widens_under_pressure() {
     ];
     run("umls_graded", &changes).passes_as_pinned("umls_graded");
 }
+
+/// Tension in a wide plate with a hole, half as wide and with edges twice as long as the committed one: displacements and stresses beside Kirsch's solution, and the stress concentration as it is there.
+#[test]
+fn the_hole_concentrates_stress() {
+    let changes = [
+        ("20.0", "10.0"),
+        ("size = 4.0", "size = 2.0"),
+        ("size = 0.1,", "size = 0.2,"),
+        ("ramp = 3.0", "ramp = 0.6"),
+        ("end = 6.0", "end = 1.6"),
+        ("\ninterval = 6.0", "\ninterval = 1.6"),
+        ("damping = 4.0", "damping = 8.0"),
+    ];
+    let finished = run("umls_plate_with_hole", &changes);
+    let errors = finished.rows.iter().filter(|row| row.quantity.starts_with("error"));
+    assert!(
+        errors.clone().count() == 3 && errors.clone().all(|row| row.passes()),
+        "{:?}",
+        finished.rows
+    );
+    figures(&finished, "umls_plate_with_hole");
+}
