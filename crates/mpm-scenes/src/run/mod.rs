@@ -9,6 +9,7 @@ mod dispatch;
 mod driver;
 mod energies;
 mod error;
+mod filled;
 mod frames;
 mod held_facets;
 mod measure;
@@ -21,6 +22,7 @@ mod snapshot;
 mod summary;
 mod tagged;
 mod tractions;
+mod virtual_stress;
 
 pub use error::SimulationError;
 pub use frames::{Effort, frames};

@@ -6,8 +6,9 @@ use mpm_core::{Contact, HeldSurface, NodeForces, Obstacle, SignedDistance};
 use mpm_tensor::vector as algebra;
 
 use super::dispatch;
+use super::filled::Filled;
 use super::held_facets::{behind, held, vertex_normals};
-use super::tractions::{Filled, Tractions};
+use super::tractions::Tractions;
 use crate::background::{Background, facet_keys, named_facets, smooth_parts};
 use crate::population::Population;
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};

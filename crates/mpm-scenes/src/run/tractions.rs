@@ -1,13 +1,12 @@
-//! Tractions on facets of a mesh, as a virtual stress of the particles and forces at nodes.
+//! Tractions on facets of a mesh, as a [virtual stress](super::virtual_stress) of the particles and forces at nodes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mpm_core::{NodeForces, VirtualStress};
-use mpm_mesh::{BoundaryFacet, CellSearch, Lists, MeshBasis, SimplexMesh};
+use mpm_core::NodeForces;
+use mpm_mesh::{BoundaryFacet, MeshBasis, SimplexMesh};
 use mpm_tensor::vector as algebra;
-use mpm_tensor::{Matrix, SymmetricEigen};
 
-use crate::population::Population;
+use super::virtual_stress::{LoadedFacet, in_cells, virtual_stresses};
 
 /// A facet by its cell and the place of the vertex opposite.
 type Place = (u32, usize);
@@ -23,45 +22,6 @@ pub(super) struct Tractions<const D: usize> {
     loads: BTreeMap<u64, BTreeMap<Place, [f64; D]>>,
     /// Facets at which something else says what happens.
     held: BTreeSet<Place>,
-}
-
-/// What bodies fill of the cells of a mesh.
-pub(super) struct Filled<'a, const D: usize> {
-    mesh: &'a SimplexMesh<D>,
-    vertex_cells: Lists,
-    /// Volume of the particles in each cell.
-    volumes: Vec<f64>,
-}
-
-impl<'a, const D: usize> Filled<'a, D> {
-    /// With these particles.
-    pub fn new(mesh: &'a SimplexMesh<D>, population: &Population<D>) -> Self {
-        let search = CellSearch::new(mesh.clone());
-        let (mut volumes, mut near) = (vec![0.0; mesh.cell_count()], None);
-        let sizes = population.volumes.iter().zip(&population.stretches);
-        for (x, (volume, stretch)) in population.positions.iter().zip(sizes) {
-            near = search.locate(x, near).map(|place| place.cell);
-            if let Some(cell) = near {
-                volumes[cell as usize] += volume * stretch.powi(D as i32);
-            }
-        }
-        Self {
-            mesh,
-            vertex_cells: mesh.vertex_cells(),
-            volumes,
-        }
-    }
-
-    /// Whether a body is at a facet: it fills more than half of the cells that have a vertex of it.
-    pub fn is_touched(&self, facet: &BoundaryFacet<D>) -> bool {
-        let at_vertices = facet
-            .vertices
-            .iter()
-            .flat_map(|&vertex| self.vertex_cells.get(vertex as usize));
-        let cells: BTreeSet<usize> = at_vertices.map(|&cell| cell as usize).collect();
-        let sum = |volume: &dyn Fn(usize) -> f64| cells.iter().map(|&cell| volume(cell)).sum::<f64>();
-        sum(&|cell| self.volumes[cell]) > 0.5 * sum(&|cell| self.mesh.volume(cell))
-    }
 }
 
 impl<const D: usize> Tractions<D> {
@@ -98,49 +58,6 @@ impl<const D: usize> Tractions<D> {
             node_forces(&basis, (inner, whole), &facets, f64::from_bits(ramp))
         };
         Ok(self.loads.iter().map(of_load).collect())
-    }
-}
-
-/// A facet of the boundary with the force per area that acts on it, 0 where it is free.
-struct LoadedFacet<const D: usize> {
-    facet: BoundaryFacet<D>,
-    traction: [f64; D],
-}
-
-/// What is left of σ̂ at vertices so many edges from the loaded facets; nothing farther away. Whole where the nodes of the boundary and of the outer layer reach.
-const SHARES: [f64; 5] = [1.0, 1.0, 1.0, 2.0 / 3.0, 1.0 / 3.0];
-
-/// Least eigenvalue of Σ A n nᵀ / Σ A of the facets at a vertex at which their normals say something of the stress along its eigenvector: normals that differ by less than 26° are one.
-const LEAST_SPREAD: f64 = 0.05;
-
-/// σ̂, linear in the cells of a mesh.
-struct InCells<const D: usize> {
-    search: CellSearch<D>,
-    /// By vertex.
-    stresses: Vec<Matrix<D>>,
-    /// Positions of the vertices of the cells in which it is not 0.
-    nodes: Vec<[f64; D]>,
-    /// How far outside of the mesh particles may be.
-    reach: f64,
-}
-
-impl<const D: usize> VirtualStress<D> for InCells<D> {
-    fn at(&self, x: &[f64; D]) -> Matrix<D> {
-        let located = self.search.locate(x, None);
-        let Some(place) = located.or_else(|| Some(self.search.nearest(x, self.reach)?.located)) else {
-            return Matrix::ZERO;
-        };
-        let first = 1.0 - place.barycentric.iter().sum::<f64>();
-        let shares = std::iter::once(first).chain(place.barycentric);
-        let vertices = self.search.mesh().cell(place.cell as usize).iter();
-        let each = vertices
-            .zip(shares)
-            .map(|(&vertex, share)| self.stresses[vertex as usize] * share);
-        each.fold(Matrix::ZERO, |sum, stress| sum + stress)
-    }
-
-    fn nodes(&self) -> &[[f64; D]] {
-        &self.nodes
     }
 }
 
@@ -206,92 +123,6 @@ fn node_forces<const D: usize>(
     }
 }
 
-fn in_cells<const D: usize>(whole: &SimplexMesh<D>, stresses: Vec<Matrix<D>>) -> InCells<D> {
-    let stressed = |cell: &&[u32]| cell.iter().any(|&vertex| stresses[vertex as usize] != Matrix::ZERO);
-    let mut vertices: Vec<u32> = whole.cells().filter(stressed).flatten().copied().collect();
-    vertices.sort_unstable();
-    vertices.dedup();
-    InCells {
-        nodes: vertices
-            .iter()
-            .map(|&vertex| whole.vertices()[vertex as usize])
-            .collect(),
-        reach: whole.edge_lengths().longest,
-        search: CellSearch::new(whole.clone()),
-        stresses,
-    }
-}
-
-/// σ̂ at the vertices of the whole mesh: at those of loaded facets, the least with σ̂ n = t; from there inwards and outwards as it is, and at free facets with σ̂ n = 0.
-fn virtual_stresses<const D: usize>(whole: &SimplexMesh<D>, facets: &[LoadedFacet<D>]) -> Vec<Matrix<D>> {
-    let mut at_vertices: BTreeMap<u32, Vec<&LoadedFacet<D>>> = BTreeMap::new();
-    for loaded in facets {
-        for vertex in loaded.facet.vertices {
-            at_vertices.entry(vertex).or_default().push(loaded);
-        }
-    }
-    let adapted = |vertex: u32, stress: Matrix<D>| match at_vertices.get(&vertex) {
-        Some(facets) => with_tractions(stress, facets),
-        None => stress,
-    };
-    let neighbours = whole.vertex_neighbours();
-    let mut stresses = vec![Matrix::ZERO; whole.vertices().len()];
-    let mut rings = vec![usize::MAX; whole.vertices().len()];
-    let loaded = facets.iter().filter(|loaded| loaded.traction != [0.0; D]);
-    let mut ring: Vec<u32> = loaded.flat_map(|loaded| loaded.facet.vertices).collect();
-    for number in 0..SHARES.len() {
-        ring.sort_unstable();
-        ring.dedup();
-        let before = |vertex: &&u32| number > 0 && rings[**vertex as usize] == number - 1;
-        let values: Vec<Matrix<D>> = ring
-            .iter()
-            .map(|&vertex| {
-                let near = neighbours.get(vertex as usize).iter().filter(before);
-                let (sum, count) = near.fold((Matrix::ZERO, 0.0), |(sum, count), &other| {
-                    (sum + stresses[other as usize], count + 1.0)
-                });
-                adapted(vertex, sum * (1.0 / f64::max(count, 1.0)))
-            })
-            .collect();
-        for (&vertex, value) in ring.iter().zip(values) {
-            (rings[vertex as usize], stresses[vertex as usize]) = (number, value);
-        }
-        let next = ring.iter().flat_map(|&vertex| neighbours.get(vertex as usize));
-        ring = next
-            .copied()
-            .filter(|&vertex| rings[vertex as usize] == usize::MAX)
-            .collect();
-    }
-    for (stress, &number) in stresses.iter_mut().zip(&rings) {
-        *stress *= SHARES.get(number).copied().unwrap_or(0.0);
-    }
-    stresses
-}
-
-/// The symmetric stress nearest to `prior` with σ̂ n = t at these facets, in the mean where they contradict each other.
-fn with_tractions<const D: usize>(prior: Matrix<D>, facets: &[&LoadedFacet<D>]) -> Matrix<D> {
-    let total: f64 = facets.iter().map(|loaded| loaded.facet.area).sum();
-    let (mut normals, mut tractions) = (Matrix::ZERO, Matrix::ZERO);
-    for LoadedFacet { facet, traction } in facets.iter().copied() {
-        normals += Matrix::outer(&facet.normal, &facet.normal) * (facet.area / total);
-        tractions += Matrix::outer(traction, &facet.normal) * (facet.area / total);
-    }
-    let Some(SymmetricEigen { values, vectors }) = SymmetricEigen::new(&normals) else {
-        return prior;
-    };
-    // In the basis of the eigenvectors: (σ̂ N)_ab = σ̂_ab λ_b = (Σ A t nᵀ)_ab.
-    let rotated = |matrix: &Matrix<D>| vectors.transpose() * *matrix * vectors;
-    let (prior, wanted) = (rotated(&prior), rotated(&tractions));
-    let known = |a: usize| values[a] > LEAST_SPREAD;
-    let entry = |a: usize, b: usize| match (known(a), known(b)) {
-        (true, true) => 0.5 * (wanted.0[a][b] / values[b] + wanted.0[b][a] / values[a]),
-        (false, true) => wanted.0[a][b] / values[b],
-        (true, false) => wanted.0[b][a] / values[a],
-        (false, false) => prior.0[a][b],
-    };
-    vectors * Matrix::from_fn(entry) * vectors.transpose()
-}
-
 /// Σ_k λ_k c_k.
 fn mean<const D: usize>(shares: &[f64], corners: impl IntoIterator<Item = [f64; D]>) -> [f64; D] {
     let mut sum = [0.0; D];
@@ -328,16 +159,11 @@ fn simplex_rule(dimensions: usize) -> Vec<(Vec<f64>, f64)> {
 #[cfg(test)]
 mod tests {
     use mpm_mesh::KernelWidth;
+    use mpm_tensor::Matrix;
 
     use super::super::held_facets::tests::with_rim;
+    use super::super::virtual_stress::tests::under;
     use super::*;
-
-    fn under<const D: usize>(stress: Matrix<D>) -> impl Fn(BoundaryFacet<D>) -> LoadedFacet<D> {
-        move |facet| LoadedFacet {
-            facet,
-            traction: stress.apply(&facet.normal),
-        }
-    }
 
     /// Patch test: under t = σ n on the whole boundary, forces and their first moments, those of ∫ σ̂ ∇w_i dV with them, are those of a constant stress, Σ f = 0 and Σ f xᵀ = V σ.
     #[test]
@@ -363,40 +189,6 @@ mod tests {
             let V = inner.total_volume();
             assert!(algebra::norm(&force) < 1e-12, "{force:?}");
             assert!((moment - stress * V).maximum_norm() < 1e-12, "{moment:?}");
-        }
-    }
-
-    fn facet<const D: usize>(normal: [f64; D], area: f64) -> BoundaryFacet<D> {
-        BoundaryFacet {
-            cell: 0,
-            opposite: 0,
-            vertices: [0; D],
-            normal,
-            area,
-        }
-    }
-
-    /// Where normals span space the stress is known, where they do not what acts on the facets is, and the rest is what it was.
-    #[test]
-    fn stresses_have_the_tractions_of_their_facets() {
-        let (stress, prior) = (
-            Matrix([[2.0, -0.7, 0.3], [-0.7, 0.5, 1.1], [0.3, 1.1, -0.4]]),
-            Matrix::diagonal(&[7.0, 8.0, 9.0]),
-        );
-        let normals = [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [0.0, -0.8, 0.6]];
-        let facets: Vec<_> = normals.map(|normal| under(stress)(facet(normal, 0.1))).into();
-        let all: Vec<&LoadedFacet<3>> = facets.iter().collect();
-        assert!((with_tractions(prior, &all) - stress).maximum_norm() < 1e-12);
-        for known in 1..3 {
-            let found = with_tractions(prior, &all[..known]);
-            assert!((found - found.transpose()).maximum_norm() < 1e-12);
-            for loaded in &all[..known] {
-                let error = algebra::distance(&found.apply(&loaded.facet.normal), &loaded.traction);
-                assert!(error < 1e-12, "{error}");
-            }
-            let free = normals[2];
-            let left = algebra::dot(&free, &found.apply(&free));
-            assert!((left - algebra::dot(&free, &prior.apply(&free))).abs() < 1e-12);
         }
     }
 
