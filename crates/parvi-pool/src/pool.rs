@@ -12,7 +12,7 @@ use crate::density::Density;
 use crate::estimate::Estimate;
 use crate::fold::{Fold, joined};
 use crate::freeze::Frozen;
-use crate::marginal::Marginal;
+use crate::marginal::{Marginal, hanging};
 use crate::measure::Measure;
 use crate::options::{Plan, Round};
 use crate::referee::{Objection, Verdict};
@@ -160,6 +160,16 @@ impl<const D: usize> Pool<D> {
     pub fn objection_given(&self, particles: usize, marginals: &[Marginal; D]) -> Option<Objection> {
         self.objection_beside_moments(particles)
             .or_else(|| self.hanging(marginals))
+    }
+
+    fn hanging(&self, marginals: &[Marginal; D]) -> Option<Objection> {
+        hanging(marginals, self.effective_size(), self.had_hung)
+    }
+
+    /// Mean and variance of every coordinate, by [`expectation`](Self::expectation).
+    pub fn marginals(&self) -> [Marginal; D] {
+        let (_, deviation) = self.measure.mean_and_deviation();
+        std::array::from_fn(|axis| Marginal::of(deviation[axis], |f| self.expectation(|x| f(x[axis]))))
     }
 
     /// The first one that asks for no moments.

@@ -5,7 +5,6 @@ use super::eulerian::Eulerian;
 use super::lagrangian::Lagrangian;
 use super::nodes::Nodes;
 use super::quadrature::QuadraturePoints;
-use super::redraw::Redraw;
 use super::step::Scheme;
 use super::{
     Inverted, OnlineError, Options, Quadrature, ReducedBody, ReducedModel, SampleChoice, SampleWeights, StepReport,
@@ -57,7 +56,7 @@ impl<'a, const D: usize> ReducedModel<'a, D> {
         let weights = own.unwrap_or_else(|| options.weights.of(&body.reference, &sample_numbers));
         let samples = map.prepare(&body.reference_of(&sample_numbers));
         let points = body.reference.len();
-        let redraw = Redraw::of(&options.samples, points, map.coordinates(), &body.kinematics)?;
+        let redraw = options.samples.redraw(points, map.coordinates(), &body.kinematics)?;
         let scheme = match options.quadrature {
             Quadrature::Lagrangian { search } => {
                 Scheme::Lagrangian(Lagrangian::new(search, map.prepare(&body.reference)))

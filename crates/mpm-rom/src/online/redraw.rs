@@ -1,12 +1,8 @@
 //! Sample points that are drawn anew in every step.
 
-use mpm_scenes::Kinematics;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::index;
-
-use super::samples::groups;
-use super::{OnlineError, SampleChoice};
 
 /// The lists that 𝒫 is drawn from. They are made once; the draw of a step takes a time of the order of |𝒫|, whatever the number of points.
 pub(super) struct Redraw {
@@ -18,22 +14,10 @@ pub(super) struct Redraw {
 }
 
 impl Redraw {
-    /// The draws of a choice that has one for every step; `None` for other choices.
-    ///
-    /// # Errors
-    /// [`OnlineError::TooFewSamples`], [`OnlineError::TooManySamples`].
-    pub fn of<const D: usize>(
-        choice: &SampleChoice,
-        points: usize,
-        coordinates: usize,
-        kinematics: &Kinematics<D>,
-    ) -> Result<Option<Self>, OnlineError> {
-        let &SampleChoice::Redrawn { count, seed } = choice else {
-            return Ok(None);
-        };
-        let groups = groups(kinematics, points, coordinates, count)?;
+    /// From lists of a body's points, with how many are drawn from each.
+    pub fn new(groups: Vec<(Vec<u32>, usize)>, points: usize, seed: u64) -> Self {
         let taken = vec![false; points];
-        Ok(Some(Self { groups, seed, taken }))
+        Self { groups, seed, taken }
     }
 
     /// 𝒫 of step n = 1, 2, …, ascending: every step has a stream of random numbers of its own, so that its draw does not depend on those of other steps.
@@ -62,13 +46,16 @@ impl Redraw {
 
 #[cfg(test)]
 mod tests {
+    use mpm_scenes::Kinematics;
+
+    use super::super::SampleChoice;
     use super::*;
 
     const POINTS: usize = 40;
 
     fn redraw(count: usize, seed: u64) -> Redraw {
         let choice = SampleChoice::Redrawn { count, seed };
-        let made = Redraw::of(&choice, POINTS, 4, &Kinematics::<2>::default()).expect("enough");
+        let made = choice.redraw(POINTS, 4, &Kinematics::<2>::default()).expect("enough");
         made.expect("drawn in every step")
     }
 

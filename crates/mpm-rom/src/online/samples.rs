@@ -45,6 +45,23 @@ pub enum SampleChoice {
 }
 
 impl SampleChoice {
+    /// The draws of a choice that has one for every step; `None` for other choices.
+    ///
+    /// # Errors
+    /// As [`groups`].
+    pub(super) fn redraw<const D: usize>(
+        &self,
+        points: usize,
+        coordinates: usize,
+        kinematics: &Kinematics<D>,
+    ) -> Result<Option<Redraw>, OnlineError> {
+        let &Self::Redrawn { count, seed } = self else {
+            return Ok(None);
+        };
+        let groups = groups(kinematics, points, coordinates, count)?;
+        Ok(Some(Redraw::new(groups, points, seed)))
+    }
+
     /// The numbers of the sample points among material points with these reference positions, ascending; those of the first step where every step has its own.
     ///
     /// # Errors
@@ -67,10 +84,7 @@ impl SampleChoice {
             Self::All => return given((0..points as u32).collect()),
             Self::Given(numbers) => return given(numbers.clone()),
             Self::Weighted(weighted) => return given(weighted.iter().map(|(number, _)| *number).collect()),
-            Self::Redrawn { .. } => {
-                let redraw = Redraw::of(self, points, coordinates, kinematics)?;
-                return Ok(redraw.map(|mut redraw| redraw.of_step(1)).unwrap_or_default());
-            }
+            Self::Redrawn { count, seed } => return Ok(Redraw::new(groups(*count)?, points, *seed).of_step(1)),
             Self::Drawn { count, seed } | Self::Spread { count, seed } => (*count, *seed),
         };
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
