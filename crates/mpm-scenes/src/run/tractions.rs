@@ -74,6 +74,7 @@ fn node_forces<const D: usize>(
     ramp: f64,
 ) -> NodeForces<D> {
     let stresses = virtual_stresses(whole, facets);
+    let (facet_rule, cell_rule) = (simplex_rule(D - 1), simplex_rule(D));
     let mut at_nodes: BTreeMap<u32, [f64; D]> = BTreeMap::new();
     let mut push = |x: &[f64; D], force: &[f64; D]| {
         for weight in basis.weights_at(x).unwrap_or_default() {
@@ -88,9 +89,9 @@ fn node_forces<const D: usize>(
         if missing.iter().all(|force| *force == [0.0; D]) {
             continue;
         }
-        for (shares, weight) in simplex_rule(D - 1) {
-            let x = mean(&shares, corners.map(|vertex| inner.vertices()[vertex as usize]));
-            push(&x, &algebra::scale(&mean(&shares, missing), weight * facet.area));
+        for (shares, weight) in &facet_rule {
+            let x = mean(shares, corners.map(|vertex| inner.vertices()[vertex as usize]));
+            push(&x, &algebra::scale(&mean(shares, missing), weight * facet.area));
         }
     }
     for cell in 0..inner.cell_count() {
@@ -106,11 +107,8 @@ fn node_forces<const D: usize>(
         if divergence == [0.0; D] {
             continue;
         }
-        for (shares, weight) in simplex_rule(D) {
-            let x = mean(
-                &shares,
-                vertices.iter().map(|&vertex| inner.vertices()[vertex as usize]),
-            );
+        for (shares, weight) in &cell_rule {
+            let x = mean(shares, vertices.iter().map(|&vertex| inner.vertices()[vertex as usize]));
             push(&x, &algebra::scale(&divergence, weight * inner.volume(cell)));
         }
     }
