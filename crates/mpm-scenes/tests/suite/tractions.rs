@@ -41,7 +41,7 @@ fn stresses(text: &str, dimension: usize) -> [f64; 2] {
     })
 }
 
-/// −1 is exact, but for waves. As forces at nodes alone tractions give −14 to 9 with the default kernel, and with kernels of local width on random points −23 to 16.
+/// −1 is exact, but for waves. With tractions as integrals over facets alone they are off by ten times that and more.
 #[test]
 fn single_particles_have_the_pressure_whatever_the_kernel() {
     let (lattice, cells) = ("particles_per_axis = 2", "fill = \"cells\"\nparticles_per_axis = 1");
