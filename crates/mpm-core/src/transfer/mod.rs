@@ -51,7 +51,7 @@ pub trait GridNode<const D: usize>: Sum {
     /// square overflows, NaN where the velocity itself is not finite.
     fn advance(&mut self, impulse: &[f64; D], damping: f64, speed_limit: f64) -> f64;
 
-    /// v_i after [`advance`](Self::advance).
+    /// v_i after [`advance`](Self::advance); before it the momentum with all impulses so far, or the impulses alone where v_iⁿ is kept beside them.
     fn velocity(&self) -> &[f64; D];
 
     /// v_i after [`advance`](Self::advance) as the vector; the scalar has no meaning.
