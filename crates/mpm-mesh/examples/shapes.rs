@@ -40,7 +40,7 @@ fn main() -> Result<(), GenerationError> {
         print(&format!("disk, radius 1{turned}"), &disk([0.0; 2], 1.0, &target)?, 0.1)?;
         print(
             &format!("wavy channel, height 23.5{turned}"),
-            &wavy_channel(23.5, &target)?,
+            &wavy_channel([0.0, 23.5], &target)?,
             0.1,
         )?;
         print(&format!("L-shaped plate{turned}"), &polygon(&ELL, &target)?, 0.1)?;

@@ -145,7 +145,7 @@ fn generate<const D: usize>(
             let rim = |radius: f64| circle_outline(*centre, radius, &field);
             plane(vec![rim(*outer)?, rim(*inner)?])
         }
-        MeshShapeTable::Channel { height, size } => plane(vec![wavy_channel_outline(*height, *size)?]),
+        MeshShapeTable::Channel { floor, height, size } => plane(vec![wavy_channel_outline([*floor, *height], *size)?]),
     }
 }
 

@@ -196,7 +196,10 @@ pub enum MeshShapeTable {
     },
     /// The wavy channel of Cao et al. (2024), §3.4, D = 2.
     Channel {
-        /// Its height.
+        /// Where it is closed, at most 0. Default 0.
+        #[serde(default)]
+        floor: f64,
+        /// Where it ends.
         height: f64,
         /// Length of edges.
         size: f64,

@@ -108,7 +108,7 @@ fn a_density_in_a_ball_is_better_than_independent_draws() {
 /// Uniform in the channel: the mean is the centroid of the mesh.
 #[test]
 fn the_wavy_channel_is_filled_evenly() {
-    let mesh = wavy_channel(23.5, &edges(0.5)).expect("a mesh");
+    let mesh = wavy_channel([0.0, 23.5], &edges(0.5)).expect("a mesh");
     let samples = sampled(&Uniform, &mesh, 1000, 5);
     let total = mesh.total_volume();
     for axis in 0..2 {

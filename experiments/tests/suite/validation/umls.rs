@@ -70,7 +70,6 @@ fn the_cantilever_swings_alike_at_all_angles() {
 fn the_ball_falls_into_the_channel() {
     let changes = [
         ("size = 0.05", "size = 0.4"),
-        ("gap = 0.0125", "gap = 0.1"),
         ("particles = 4735", "particles = 250"),
         ("end = 6.5", "end = 1.5"),
     ];

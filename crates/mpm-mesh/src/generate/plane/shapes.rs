@@ -90,18 +90,25 @@ pub fn disk(centre: [f64; 2], radius: f64, target: &EdgeTarget) -> Result<Simple
     polygon(&disk_outline(centre, radius, target.length)?, target)
 }
 
-/// The outline of the wavy channel of Cao et al. (2024), §3.4: 0 ≤ y ≤ `height`, of width 2, with the left wall at
-/// x = sin(π y / 5) sin(π y / 20) for 0 < y ≤ 20 and x = 0 above, the right one at x + 2 (Eq. 36). The walls are polygons with corners at equal
+/// The outline of the wavy channel of Cao et al. (2024), §3.4: floor ≤ y ≤ height with floor ≤ 0 < height, of width 2, with the left wall at
+/// x = sin(π y / 5) sin(π y / 20) for 0 < y ≤ 20 and x = 0 elsewhere, the right one at x + 2 (Eq. 36). The walls are polygons with corners at equal
 /// distances of about `length` along the curve.
 ///
 /// # Errors
-/// [`GenerationError::InvalidParameter`] unless height and length are positive.
-pub fn wavy_channel_outline(height: f64, length: f64) -> Result<Vec<[f64; 2]>, GenerationError> {
+/// [`GenerationError::InvalidParameter`] unless floor, height and length are in their ranges and finite.
+pub fn wavy_channel_outline([floor, height]: [f64; 2], length: f64) -> Result<Vec<[f64; 2]>, GenerationError> {
     GenerationError::check_positive("height", height)?;
     GenerationError::check_positive("length", length)?;
-    // Two triangles per vertex, on an area of 2 · height.
-    GenerationError::check_count(length, 4.0 * height / length.powi(2))?;
-    let left = wall(height, length);
+    if !(floor.is_finite() && floor <= 0.0) {
+        return Err(GenerationError::InvalidParameter {
+            name: "floor",
+            value: floor,
+            requirement: "0 or below, and finite",
+        });
+    }
+    // Two triangles per vertex, on an area of 2 · (height − floor).
+    GenerationError::check_count(length, 4.0 * (height - floor) / length.powi(2))?;
+    let left = wall([floor, height], length);
     let right = left.iter().rev().map(|&[x, y]| [x + 2.0, y]);
     Ok(left.iter().copied().chain(right).collect())
 }
@@ -110,14 +117,14 @@ pub fn wavy_channel_outline(height: f64, length: f64) -> Result<Vec<[f64; 2]>, G
 ///
 /// # Errors
 /// As [`wavy_channel_outline`] and [`outlines`].
-pub fn wavy_channel(height: f64, target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
-    polygon(&wavy_channel_outline(height, target.length)?, target)
+pub fn wavy_channel(ends: [f64; 2], target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
+    polygon(&wavy_channel_outline(ends, target.length)?, target)
 }
 
-/// Points on the left wall from y = 0 to `height`, about `length` apart along it.
-fn wall(height: f64, length: f64) -> Vec<[f64; 2]> {
+/// Points on the left wall from floor to height, about `length` apart along it.
+fn wall([floor, height]: [f64; 2], length: f64) -> Vec<[f64; 2]> {
     let x = |y: f64| {
-        if y <= 20.0 {
+        if y > 0.0 && y <= 20.0 {
             (PI * y / 5.0).sin() * (PI * y / 20.0).sin()
         } else {
             0.0
@@ -132,10 +139,13 @@ fn wall(height: f64, length: f64) -> Vec<[f64; 2]> {
         lengths.push(lengths[k] + distance(&point(k), &point(k + 1)));
     }
     let curved = lengths[lengths.len() - 1];
-    let total = curved + (height - top);
+    let total = curved + (height - top) - floor;
     let parts = (total / length).round().max(1.0);
     let corners = (0..=parts as usize).map(|part| {
-        let place = total * part as f64 / parts;
+        let place = total * part as f64 / parts + floor;
+        if place <= 0.0 {
+            return [0.0, place];
+        }
         if place >= curved {
             let y = (top + (place - curved)).min(height);
             return [x(y), y];

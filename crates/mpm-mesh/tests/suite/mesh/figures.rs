@@ -35,7 +35,7 @@ fn triangles_are_near_to_equilateral() {
         for (name, mesh) in [
             ("square", rectangle([0.0; 2], [1.0; 2], &target)),
             ("disk", disk([0.0; 2], 1.0, &target)),
-            ("channel", wavy_channel(23.5, &target)),
+            ("channel", wavy_channel([0.0, 23.5], &target)),
             ("ell", polygon(&samples::ELL, &target)),
             ("star", polygon(&samples::star(), &target)),
         ] {

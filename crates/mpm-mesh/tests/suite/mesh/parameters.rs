@@ -26,7 +26,12 @@ fn numbers_out_of_range() {
     assert_eq!(parameter(generate::rectangle([0.0; 2], [1.0, -1.0], &TARGET)), "height");
     assert_eq!(parameter(generate::rectangle([0.0; 2], [0.0, 1.0], &TARGET)), "width");
     assert_eq!(parameter(generate::disk([0.0; 2], -1.0, &TARGET)), "radius");
-    assert_eq!(parameter(generate::wavy_channel(f64::INFINITY, &TARGET)), "height");
+    assert_eq!(
+        parameter(generate::wavy_channel([0.0, f64::INFINITY], &TARGET)),
+        "height"
+    );
+    assert_eq!(parameter(generate::wavy_channel([0.5, 20.0], &TARGET)), "floor");
+    assert_eq!(parameter(generate::wavy_channel([f64::NAN, 20.0], &TARGET)), "floor");
     assert_eq!(parameter(generate::segments(0.0, &[1.0, 0.0])), "size");
     assert_eq!(parameter(generate::cyclic_sizes(1.0, 0, &[1.0])), "count");
     assert_eq!(parameter(generate::cyclic_sizes(1.0, 2, &[])), "length of the pattern");

@@ -27,7 +27,7 @@ fn domains() -> Vec<Vec<Vec<[f64; 2]>>> {
     vec![
         vec![rectangle_outline([0.0, -1.0], [2.0, 1.0]).unwrap()],
         vec![disk_outline([0.3, 0.2], 1.0, 0.05).unwrap()],
-        vec![wavy_channel_outline(4.0, 0.05).unwrap()],
+        vec![wavy_channel_outline([0.0, 4.0], 0.05).unwrap()],
         vec![
             rectangle_outline([0.0, 0.0], [2.0, 2.0]).unwrap(),
             rectangle_outline([0.6, 0.6], [1.4, 1.4]).unwrap(),
