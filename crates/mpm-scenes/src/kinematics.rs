@@ -5,7 +5,7 @@ use mpm_tensor::{Matrix, vector as algebra};
 use crate::loads::within;
 use crate::scene::{Scene, TurningTable};
 use crate::values::{self, vector};
-use crate::velocity::spin;
+use crate::vector_field::spin;
 use crate::{Population, SceneFault};
 
 /// The rigid motion x(X, t) = c + v t + R(t) (X − c) with the constant rates v (velocity) and W = ω × (spin), R(t) = exp(W t).

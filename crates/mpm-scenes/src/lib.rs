@@ -2,6 +2,7 @@
 
 mod background;
 mod error;
+mod facet_traction;
 pub mod fill;
 mod held;
 mod kinematics;
@@ -24,7 +25,7 @@ mod toml_value;
 mod validation_row;
 mod values;
 pub mod variation;
-mod velocity;
+mod vector_field;
 
 pub use error::{SceneError, SceneFault, StepLimit};
 pub use held::HeldRegion;

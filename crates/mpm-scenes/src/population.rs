@@ -5,7 +5,7 @@ use crate::fill::{Filling, centroids, in_cells, poisson_disk, random, regular, r
 use crate::scene::{BodyTable, FillKind, Scene};
 use crate::shape::{Bounds, Rotated, Shape};
 use crate::values::within;
-use crate::{SceneFault, plane, rotation, shape, velocity};
+use crate::{SceneFault, plane, rotation, shape, vector_field};
 
 /// All particles in the order of creation, which is that of the bodies; one entry per particle in every list.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,7 +83,7 @@ impl<const D: usize> Population<D> {
             return Ok(());
         };
         let field = format!("bodies.{}.velocity", body.name);
-        let velocity = velocity::build::<D>(&field, body.velocity.as_ref(), scene)?;
+        let velocity = vector_field::build::<D>(&field, body.velocity.as_ref(), scene)?;
         let material = scene.materials.keys().position(|name| *name == body.material);
         let density = scene
             .materials

@@ -4,7 +4,7 @@ use mpm_tensor::Matrix;
 
 use super::parts::{Rows, Run, solid, unfit};
 use super::plane_stress::{point, recovered_stresses, stresses};
-use crate::scene::ShapeTable;
+use crate::scene::{FacetTable, PressureTable, ShapeTable};
 use crate::{Scene, Snapshot, ValidationRow};
 
 /// A ring of radii a < b with pressure p at a, small strains, plane strain.
@@ -36,7 +36,11 @@ impl ThickWalledCylinder {
         };
         let (outside, inside) = (disk(from)?, disk(remove.first()?)?);
         let (_, moduli) = solid(scene).ok()?;
-        let pressure = scene.facets.iter().find_map(|table| table.pressure)?;
+        let uniform = |table: &FacetTable| match table.pressure {
+            Some(PressureTable::Uniform(pressure)) => Some(pressure),
+            _ => None,
+        };
+        let pressure = scene.facets.iter().find_map(uniform)?;
         (outside.0 == inside.0 && remove.len() == 1).then_some(Self {
             centre: outside.0,
             inner: inside.1,

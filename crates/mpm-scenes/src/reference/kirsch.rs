@@ -5,7 +5,7 @@ use mpm_tensor::Matrix;
 
 use super::parts::{Rows, Run, solid, unfit};
 use super::plane_stress::{point, recovered_stresses, stress_error, stresses};
-use crate::scene::{FacetTable, ShapeTable};
+use crate::scene::{FacetTable, ShapeTable, VectorTable};
 use crate::{Scene, ValidationRow};
 
 /// An infinite plate with a hole of radius a under the stress S along x far away, small strains, plane strain.
@@ -33,8 +33,11 @@ impl PlateWithHole {
         let [ShapeTable::Sphere { centre, radius }] = remove.as_slice() else {
             return None;
         };
-        let pulled = |table: &FacetTable| match (table.group.as_str(), table.traction.as_deref()) {
-            ("x-upper", Some(&[tension, 0.0])) => Some(tension),
+        let pulled = |table: &FacetTable| match &table.traction {
+            Some(VectorTable::Uniform(traction)) if table.group == "x-upper" => match traction[..] {
+                [tension, 0.0] => Some(tension),
+                _ => None,
+            },
             _ => None,
         };
         Some(Self {

@@ -6,7 +6,7 @@ use super::kirsch::PlateWithHole;
 use super::parts::{gravity, sides, solid, spacing};
 use super::{slope_run_out, tilted_cantilever};
 use crate::Scene;
-use crate::scene::{BodyTable, FillKind, LoadTable, MaterialTable, ShapeTable, VelocityField, VelocityTable};
+use crate::scene::{BodyTable, FillKind, LoadTable, MaterialTable, ShapeTable, VectorField, VectorTable};
 
 /// Whether a scene is one of a problem, and which scenes are in words.
 #[derive(Clone, Copy)]
@@ -53,7 +53,7 @@ pub const TWO_DISKS: Problem = Problem(
 pub const BAR: Problem = Problem(
     |scene| {
         let velocity = scene.bodies.first().and_then(|body| body.velocity.as_ref());
-        let sine = matches!(velocity, Some(VelocityTable::Field(VelocityField::Sine { .. })));
+        let sine = matches!(velocity, Some(VectorTable::Field(VectorField::Sine { .. })));
         scene.dimension == 1 && sine && solid(scene).is_ok() && sides(scene).is_ok()
     },
     "a box in one dimension of one elastic material, with a sine as its velocity",
@@ -124,7 +124,7 @@ fn has_probe(scene: &Scene, name: &str) -> bool {
 
 /// A velocity or a load of this manufactured solution in a plane scene of one elastic material.
 fn manufactured(scene: &Scene, name: &str) -> bool {
-    let moves = |body: &BodyTable| matches!(&body.velocity, Some(VelocityTable::Field(VelocityField::Manufactured { solution })) if solution == name);
+    let moves = |body: &BodyTable| matches!(&body.velocity, Some(VectorTable::Field(VectorField::Manufactured { solution })) if solution == name);
     let pulls = |load: &LoadTable| matches!(load, LoadTable::Manufactured { solution } if solution == name);
     let named = scene.bodies.iter().any(moves) || scene.loads.iter().any(pulls);
     named && scene.dimension == 2 && solid(scene).is_ok()

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::Displacement;
 use super::curve::Curve;
 use super::parts::{Rows, Run, sides, solid};
-use crate::scene::{VelocityField, VelocityTable};
+use crate::scene::{VectorField, VectorTable};
 use crate::{Scene, SceneFault, ValidationRow};
 
 /// A bar 0 ≤ X ≤ L with u(0, t) = 0, no traction at X = L and P = E (F − 1), for which the equation of motion
@@ -80,7 +80,7 @@ impl VibratingBar {
 fn of_scene(scene: &Scene) -> Result<VibratingBar, SceneFault> {
     let (material, _) = solid(scene)?;
     let speed = match scene.bodies.first().and_then(|body| body.velocity.as_ref()) {
-        Some(VelocityTable::Field(VelocityField::Sine { amplitude, .. })) => amplitude.first().copied(),
+        Some(VectorTable::Field(VectorField::Sine { amplitude, .. })) => amplitude.first().copied(),
         _ => None,
     };
     Ok(VibratingBar {

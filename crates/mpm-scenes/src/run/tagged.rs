@@ -13,8 +13,8 @@ use crate::background::{Background, facet_keys, named_facets, smooth_parts};
 use crate::population::Population;
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
 use crate::shape::{MeshOutside, Shape};
-use crate::values::{vector, within};
-use crate::{SceneFault, velocity};
+use crate::values::within;
+use crate::{SceneFault, facet_traction, vector_field};
 
 /// Normals, and mirror images of what is behind, at vertices by the bits of their positions, which nodes have too.
 type ByPosition<const D: usize> = HashMap<[u64; D], ([f64; D], Option<[f64; D]>)>;
@@ -118,7 +118,7 @@ pub(super) fn build<const D: usize>(
                     .extend(normals.map(|normals| held(own, whole, &normals, true, &|_| [0.0; D])));
             }
             FacetCondition::Prescribed => {
-                let velocity = velocity::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
+                let velocity = vector_field::build::<D>(&field("velocity"), table.velocity.as_ref(), scene)?;
                 let across = |(&vertex, normal): (&u32, &[f64; D])| {
                     algebra::dot(&velocity.at(&inner.vertices()[vertex as usize]), normal).abs()
                 };
@@ -158,11 +158,7 @@ pub(super) fn build<const D: usize>(
                 }
             }
             FacetCondition::Traction => {
-                let traction = table
-                    .traction
-                    .as_ref()
-                    .map(|list| vector::<D>(&field("traction"), list));
-                let (traction, pressure) = (traction.transpose()?, table.pressure.unwrap_or(0.0));
+                let traction = facet_traction::build::<D>(&field, table, scene)?;
                 let filled = filled.get_or_insert_with(|| Filled::new(inner, population));
                 let mut loaded = named_facets(inner, facets)
                     .filter(|facet| filled.is_touched(facet))
@@ -170,8 +166,9 @@ pub(super) fn build<const D: usize>(
                 let expected = "a group with a facet that a body touches: the traction acts on none";
                 within(&field("group"), &table.group, loaded.peek().is_some(), expected)?;
                 for facet in loaded {
-                    let traction = traction.unwrap_or_else(|| facet.normal.map(|c| -pressure * c));
-                    tractions.add(table.ramp.unwrap_or(0.0), &facet, &traction);
+                    let position = |vertex: u32| &inner.vertices()[vertex as usize];
+                    let at_vertices = facet.vertices.map(|vertex| traction(position(vertex), &facet.normal));
+                    tractions.add(table.ramp.unwrap_or(0.0), &facet, &at_vertices);
                 }
             }
         }

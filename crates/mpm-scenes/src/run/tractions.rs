@@ -18,8 +18,8 @@ fn place<const D: usize>(facet: &BoundaryFacet<D>) -> Place {
 /// The tractions of a scene.
 #[derive(Default)]
 pub(super) struct Tractions<const D: usize> {
-    /// The bits of the time over which they grow, and t by facet.
-    loads: BTreeMap<u64, BTreeMap<Place, [f64; D]>>,
+    /// The bits of the time over which they grow, and t at the vertices by facet.
+    loads: BTreeMap<u64, BTreeMap<Place, [[f64; D]; D]>>,
     /// Facets at which something else says what happens.
     held: BTreeSet<Place>,
 }
@@ -30,10 +30,13 @@ impl<const D: usize> Tractions<D> {
         self.held.insert(place(facet));
     }
 
-    /// A force per area more, which grows over the time `ramp` ≥ 0.
-    pub fn add(&mut self, ramp: f64, facet: &BoundaryFacet<D>, traction: &[f64; D]) {
+    /// A force per area more, by the vertices of a facet, which grows over the time `ramp` ≥ 0.
+    pub fn add(&mut self, ramp: f64, facet: &BoundaryFacet<D>, tractions: &[[f64; D]; D]) {
         let load = self.loads.entry(ramp.abs().to_bits()).or_default();
-        algebra::accumulate(load.entry(place(facet)).or_insert([0.0; D]), 1.0, traction);
+        let sums = load.entry(place(facet)).or_insert([[0.0; D]; D]);
+        for (sum, traction) in sums.iter_mut().zip(tractions) {
+            algebra::accumulate(sum, 1.0, traction);
+        }
     }
 
     /// All of them, those that grow alike together.
@@ -47,12 +50,12 @@ impl<const D: usize> Tractions<D> {
             return Ok(Vec::new());
         }
         let (basis, boundary) = (basis()?, inner.boundary());
-        let of_load = |(&ramp, tractions): (&u64, &BTreeMap<Place, [f64; D]>)| {
+        let of_load = |(&ramp, tractions): (&u64, &BTreeMap<Place, [[f64; D]; D]>)| {
             let known =
                 |facet: &&BoundaryFacet<D>| tractions.contains_key(&place(facet)) || !self.held.contains(&place(facet));
             let loaded = |facet: &BoundaryFacet<D>| LoadedFacet {
                 facet: *facet,
-                traction: tractions.get(&place(facet)).copied().unwrap_or([0.0; D]),
+                tractions: tractions.get(&place(facet)).copied().unwrap_or([[0.0; D]; D]),
             };
             let facets: Vec<_> = boundary.iter().filter(known).map(loaded).collect();
             node_forces(&basis, (inner, whole), &facets, f64::from_bits(ramp))
@@ -82,11 +85,12 @@ fn node_forces<const D: usize>(
             algebra::accumulate(sum, weight.entry.weight, force);
         }
     };
-    for LoadedFacet { facet, traction } in facets {
+    for LoadedFacet { facet, tractions } in facets {
         let corners = facet.vertices;
-        let missing =
-            corners.map(|vertex| algebra::subtract(traction, &stresses[vertex as usize].apply(&facet.normal)));
-        if missing.iter().all(|force| *force == [0.0; D]) {
+        let missing = std::array::from_fn(|k| {
+            algebra::subtract(&tractions[k], &stresses[corners[k] as usize].apply(&facet.normal))
+        });
+        if missing == [[0.0; D]; D] {
             continue;
         }
         for (shares, weight) in &facet_rule {
@@ -162,6 +166,51 @@ mod tests {
     use super::super::held_facets::tests::with_rim;
     use super::super::virtual_stress::tests::under;
     use super::*;
+
+    /// Forces are those of the tractions, first moments with them, also where these are linear along facets: with ∫ σ̂ ∇w_i dV, of which Σ_i ∇w_i = 0 and Σ_i x_i ∇w_iᵀ = I leave ∫ σ̂ dV,
+    /// Σ f = ∮ t dA and Σ f xᵀ = ∮ t xᵀ dA.
+    #[test]
+    #[allow(non_snake_case)]
+    fn linear_tractions_have_their_force_and_moments() {
+        let (inner, whole, _) = with_rim();
+        let basis = MeshBasis::new(&whole).expect("a basis");
+        let L = Matrix([[0.3, -1.1], [2.0, 0.4]]);
+        let at = |facet: &BoundaryFacet<2>| {
+            facet
+                .vertices
+                .map(|vertex| algebra::add_scaled(&L.apply(&inner.vertices()[vertex as usize]), 0.7, &facet.normal))
+        };
+        let loaded = |facet| LoadedFacet {
+            tractions: at(&facet),
+            facet,
+        };
+        let facets: Vec<_> = inner.boundary().into_iter().map(loaded).collect();
+        let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
+        let forces = node_forces(&basis, (&inner, &whole), &facets, 0.0).forces;
+        for (x, f) in forces {
+            algebra::accumulate(&mut force, 1.0, &f);
+            moment += Matrix::outer(&f, &x);
+        }
+        let stresses = virtual_stresses(&whole, &facets);
+        for (number, vertices) in inner.cells().enumerate() {
+            for &vertex in vertices {
+                moment += stresses[vertex as usize] * (inner.volume(number) / 3.0);
+            }
+        }
+        // Simpson's rule.
+        for LoadedFacet { facet, tractions } in &facets {
+            let [a, b] = facet.vertices.map(|vertex| inner.vertices()[vertex as usize]);
+            let middle = |a: &[f64; 2], b: &[f64; 2]| algebra::scale(&algebra::add_scaled(a, 1.0, b), 0.5);
+            let places = [(a, tractions[0], 1.0), (b, tractions[1], 1.0)];
+            let half = (middle(&a, &b), middle(&tractions[0], &tractions[1]), 4.0);
+            for (x, t, share) in places.into_iter().chain([half]) {
+                algebra::accumulate(&mut force, -share * facet.area / 6.0, &t);
+                moment += Matrix::outer(&t, &x) * (-share * facet.area / 6.0);
+            }
+        }
+        assert!(algebra::norm(&force) < 1e-12, "{force:?}");
+        assert!(moment.maximum_norm() < 1e-12, "{moment:?}");
+    }
 
     /// Patch test: under t = σ n on the whole boundary, forces and their first moments, those of ∫ σ̂ ∇w_i dV with them, are those of a constant stress, Σ f = 0 and Σ f xᵀ = V σ.
     #[test]

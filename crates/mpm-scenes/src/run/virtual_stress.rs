@@ -6,10 +6,10 @@ use mpm_core::VirtualStress;
 use mpm_mesh::{BoundaryFacet, CellSearch, SimplexMesh};
 use mpm_tensor::{Matrix, SymmetricEigen};
 
-/// A facet of the boundary with the force per area that acts on it, 0 where it is free.
+/// A facet of the boundary with the force per area that acts on it at its vertices, linear between them, 0 where it is free.
 pub(super) struct LoadedFacet<const D: usize> {
     pub facet: BoundaryFacet<D>,
-    pub traction: [f64; D],
+    pub tractions: [[f64; D]; D],
 }
 
 /// What is left of σ̂ at vertices so many edges from the loaded facets; nothing farther away. Whole where the nodes of the boundary and of the outer layer reach.
@@ -71,10 +71,10 @@ pub(super) fn in_cells<const D: usize>(
 
 /// σ̂ at the vertices of the whole mesh: at those of loaded facets, the least with σ̂ n = t; from there inwards and outwards as it is, and at free facets with σ̂ n = 0.
 pub(super) fn virtual_stresses<const D: usize>(whole: &SimplexMesh<D>, facets: &[LoadedFacet<D>]) -> Vec<Matrix<D>> {
-    let mut at_vertices: BTreeMap<u32, Vec<&LoadedFacet<D>>> = BTreeMap::new();
-    for loaded in facets {
-        for vertex in loaded.facet.vertices {
-            at_vertices.entry(vertex).or_default().push(loaded);
+    let mut at_vertices: BTreeMap<u32, Vec<Load<D>>> = BTreeMap::new();
+    for LoadedFacet { facet, tractions } in facets {
+        for (vertex, traction) in facet.vertices.into_iter().zip(tractions) {
+            at_vertices.entry(vertex).or_default().push((facet, traction));
         }
     }
     let adapted = |vertex: u32, stress: Matrix<D>| match at_vertices.get(&vertex) {
@@ -84,7 +84,7 @@ pub(super) fn virtual_stresses<const D: usize>(whole: &SimplexMesh<D>, facets: &
     let neighbours = whole.vertex_neighbours();
     let mut stresses = vec![Matrix::ZERO; whole.vertices().len()];
     let mut rings = vec![usize::MAX; whole.vertices().len()];
-    let loaded = facets.iter().filter(|loaded| loaded.traction != [0.0; D]);
+    let loaded = facets.iter().filter(|loaded| loaded.tractions != [[0.0; D]; D]);
     let mut ring: Vec<u32> = loaded.flat_map(|loaded| loaded.facet.vertices).collect();
     for number in 0..SHARES.len() {
         ring.sort_unstable();
@@ -115,11 +115,14 @@ pub(super) fn virtual_stresses<const D: usize>(whole: &SimplexMesh<D>, facets: &
     stresses
 }
 
+/// A facet at a vertex, and t there.
+type Load<'a, const D: usize> = (&'a BoundaryFacet<D>, &'a [f64; D]);
+
 /// The symmetric stress nearest to `prior` with σ̂ n = t at these facets, in the mean where they contradict each other.
-fn with_tractions<const D: usize>(prior: Matrix<D>, facets: &[&LoadedFacet<D>]) -> Matrix<D> {
-    let total: f64 = facets.iter().map(|loaded| loaded.facet.area).sum();
+fn with_tractions<const D: usize>(prior: Matrix<D>, facets: &[Load<D>]) -> Matrix<D> {
+    let total: f64 = facets.iter().map(|(facet, _)| facet.area).sum();
     let (mut normals, mut tractions) = (Matrix::ZERO, Matrix::ZERO);
-    for LoadedFacet { facet, traction } in facets.iter().copied() {
+    for &(facet, traction) in facets {
         normals += Matrix::outer(&facet.normal, &facet.normal) * (facet.area / total);
         tractions += Matrix::outer(traction, &facet.normal) * (facet.area / total);
     }
@@ -147,8 +150,8 @@ pub(super) mod tests {
 
     pub fn under<const D: usize>(stress: Matrix<D>) -> impl Fn(BoundaryFacet<D>) -> LoadedFacet<D> {
         move |facet| LoadedFacet {
+            tractions: [stress.apply(&facet.normal); D],
             facet,
-            traction: stress.apply(&facet.normal),
         }
     }
 
@@ -171,13 +174,16 @@ pub(super) mod tests {
         );
         let normals = [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [0.0, -0.8, 0.6]];
         let facets: Vec<_> = normals.map(|normal| under(stress)(facet(normal, 0.1))).into();
-        let all: Vec<&LoadedFacet<3>> = facets.iter().collect();
+        let all: Vec<Load<3>> = facets
+            .iter()
+            .map(|loaded| (&loaded.facet, &loaded.tractions[0]))
+            .collect();
         assert!((with_tractions(prior, &all) - stress).maximum_norm() < 1e-12);
         for known in 1..3 {
             let found = with_tractions(prior, &all[..known]);
             assert!((found - found.transpose()).maximum_norm() < 1e-12);
-            for loaded in &all[..known] {
-                let error = algebra::distance(&found.apply(&loaded.facet.normal), &loaded.traction);
+            for (facet, traction) in &all[..known] {
+                let error = algebra::distance(&found.apply(&facet.normal), traction);
                 assert!(error < 1e-12, "{error}");
             }
             let free = normals[2];

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{RotationTable, ShapeTable, VelocityTable};
+use super::{RotationTable, ShapeTable, VectorTable};
 
 /// `[[bodies]]`: a shape filled with particles of one material.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -30,7 +30,7 @@ pub struct BodyTable {
     /// Seed of a random filling; with `fill = "poisson-disk"` and `"random"` only. Default 0.
     pub seed: Option<u64>,
     /// Velocity at t = 0. By default the body is at rest.
-    pub velocity: Option<VelocityTable>,
+    pub velocity: Option<VectorTable>,
     /// λ in F = λ 1 at t = 0: the shape is that of the deformed body. Default 1.
     pub deformation: Option<f64>,
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::VelocityTable;
+use super::{PressureTable, VectorTable};
 
 /// `[[facets]]`: a condition on facets of the mesh, of any shape: those of a physical group of `mesh.file`, or `boundary`, all of its boundary.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -13,13 +13,13 @@ pub struct FacetTable {
     /// What they do to a body that touches them.
     pub condition: FacetCondition,
     /// The velocity of the body at them, a vector or a field; with `condition = "prescribed"` only.
-    pub velocity: Option<VelocityTable>,
+    pub velocity: Option<VectorTable>,
     /// Coefficient of friction μ; with `condition = "friction"` only.
     pub friction: Option<f64>,
-    /// t, a force per area of the mesh's facets; with `condition = "traction"` only.
-    pub traction: Option<Vec<f64>>,
-    /// Instead of `traction`: p in t = −p n, n being the outward normal of a facet.
-    pub pressure: Option<f64>,
+    /// t, a force per area of the mesh's facets, a vector or a field; with `condition = "traction"` only.
+    pub traction: Option<VectorTable>,
+    /// Instead of `traction`: p in t = −p n, n being the outward normal of a facet; a number or a field.
+    pub pressure: Option<PressureTable>,
     /// Time over which a traction grows. Default 0.
     pub ramp: Option<f64>,
 }

@@ -11,10 +11,11 @@ mod load;
 mod material;
 mod mesh;
 mod output;
+mod pressure;
 mod read;
 mod region;
 mod time;
-mod velocity;
+mod vector_field;
 mod volume_averaging;
 
 use std::collections::BTreeMap;
@@ -38,10 +39,11 @@ pub use mesh::{
     DelaunayTable, GradientName, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName,
 };
 pub use output::{OutputTable, ProbeTable, ValidationTable};
+pub use pressure::{PressureField, PressureTable};
 pub(crate) use read::text_of;
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
-pub use velocity::{VelocityField, VelocityTable};
+pub use vector_field::{VectorField, VectorTable};
 
 /// A scene: the bodies, what holds and pulls them, how the motion is computed and what is written of it.
 ///

@@ -1,6 +1,6 @@
 //! What a good document says.
 
-use mpm_scenes::scene::{BasisName, TransferKind, VelocityTable};
+use mpm_scenes::scene::{BasisName, TransferKind, VectorTable};
 
 use super::scenes::{BAR, BLOCK, CUBE, scene};
 
@@ -16,10 +16,10 @@ fn good_scenes_are_read_with_their_defaults() {
         (1, Some(BasisName::Quadratic), TransferKind::Flip)
     );
     assert_eq!((bar.bodies[0].per_axis(), bar.time.damping), (2, 0.0));
-    assert!(matches!(bar.bodies[0].velocity, Some(VelocityTable::Field(_))));
+    assert!(matches!(bar.bodies[0].velocity, Some(VectorTable::Field(_))));
     assert_eq!(
         scene(BLOCK).bodies[0].velocity,
-        Some(VelocityTable::Uniform(vec![1.0, 0.0]))
+        Some(VectorTable::Uniform(vec![1.0, 0.0]))
     );
     assert_eq!(scene(CUBE).time.courant, 0.3);
 }

@@ -223,6 +223,63 @@ fn groups_that_name_nothing_are_refused() {
             )],
             "facets[0].pressure",
         ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = { kind = \"hydrostatic\", density = 1.0, surface = [0.0, 0.0] }",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].pressure",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = { kind = \"hydrostatic\", density = 1.0, surface = [0.0] }",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].pressure.surface",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = { kind = \"static\" }",
+                ),
+                (velocity, "[output]"),
+            ],
+            "unknown variant `static`",
+        ),
+        (
+            vec![
+                ("condition = \"prescribed\"", "condition = \"traction\"\npressure = nan"),
+                (velocity, "[output]"),
+            ],
+            "facets[0].pressure",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\ntraction = { kind = \"linear\", centre = [0.0, 0.0], gradient = [[1.0, 0.0]] }",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].traction.gradient",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\ntraction = { kind = \"manufactured\", solution = \"axis-aligned\" }",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].traction",
+        ),
     ] {
         let message = refused(&changes);
         assert!(message.contains(part), "{message}");

@@ -141,3 +141,83 @@ fn tractions_act_where_bodies_are() {
     let mean = end.stresses.chunks(4).map(|stress| stress[3]).sum::<f64>() / (end.stresses.len() / 4) as f64;
     assert!((mean - 1.0).abs() < 0.1, "{mean}");
 }
+
+/// The frames of a scene, and reference positions of its particles: those of the first.
+fn run(text: &str) -> [Snapshot; 2] {
+    let scene = Scene::parse(text, Path::new("tractions.toml")).expect("a scene");
+    let mut snapshots = Vec::new();
+    frames(&scene, &mut |snapshot| snapshots.push(snapshot)).expect("a run");
+    match <[Snapshot; 2]>::try_from(snapshots) {
+        Ok(ends) => ends,
+        Err(more) => panic!("{} frames", more.len()),
+    }
+}
+
+/// A free beam in plane strain between couples, t = ± m y along x.
+const BENT: &str = r#"
+title = "a beam is bent"
+dimension = 2
+transfer = { kind = "apic" }
+time = { end = 1.0, damping = 20.0 }
+materials.rubber = { law = "neo-hookean", density = 1.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
+facets = [
+    { group = "x-lower", condition = "traction", traction = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.0, -20.0], [0.0, 0.0]] }, ramp = 0.5 },
+    { group = "x-upper", condition = "traction", traction = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.0, 20.0], [0.0, 0.0]] }, ramp = 0.5 },
+]
+output = { interval = 1.0 }
+mesh = { generate = { kind = "rectangle", lower = [-1.0, -0.25], upper = [1.0, 0.25], size = 0.1 }, kernel = "smooth", gradient = "exact", width = "local" }
+bodies = [{ name = "beam", material = "rubber", fill = "cells", particles_per_axis = 1, shape = { kind = "box", lower = [-1.0, -0.25], upper = [1.0, 0.25] } }]
+"#;
+
+/// σ_xx = m y, and the axis bends by κ = m (1 − ν²) / E: u_y = −κ x² / 2 + what is rigid.
+#[test]
+fn a_beam_between_couples_bends() {
+    let [start, end] = run(BENT);
+    let (mut error, mut scale) = (0.0, 0.0);
+    for (at, stress) in start.positions.chunks(2).zip(end.stresses.chunks(4)) {
+        error += (stress[0] - 20.0 * at[1]).powi(2);
+        scale += (20.0 * at[1]).powi(2);
+    }
+    let stress = f64::sqrt(error / scale);
+    // Σ u_y (x² − mean) / Σ (x² − mean)² is −κ / 2.
+    let mean = start.positions.chunks(2).map(|at| at[0] * at[0]).sum::<f64>() / start.len() as f64;
+    let (mut above, mut below) = (0.0, 0.0);
+    for (from, to) in start.positions.chunks(2).zip(end.positions.chunks(2)) {
+        let lean = from[0] * from[0] - mean;
+        above += (to[1] - from[1]) * lean;
+        below += lean * lean;
+    }
+    let curvature = -2.0 * above / below / (20.0 * 0.91 / 1000.0) - 1.0;
+    assert!(stress < 0.04 && curvature.abs() < 0.01, "{stress}, {curvature}");
+}
+
+/// A block in a fluid of its own density.
+const AFLOAT: &str = r#"
+title = "a block floats"
+dimension = 2
+gravity = [0.0, -10.0]
+gravity_ramp = 0.5
+transfer = { kind = "apic" }
+time = { end = 0.7 }
+materials.rubber = { law = "neo-hookean", density = 2.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
+facets = [{ group = "boundary", condition = "traction", pressure = { kind = "hydrostatic", density = 2.0, surface = [0.0, 1.0] }, ramp = 0.5 }]
+output = { interval = 0.7 }
+mesh = { generate = { kind = "rectangle", lower = [-1.0, -0.5], upper = [1.0, 0.5], size = 0.2 } }
+bodies = [{ name = "block", material = "rubber", shape = { kind = "box", lower = [-1.0, -0.5], upper = [1.0, 0.5] } }]
+"#;
+
+/// It stays where it is, under the pressure of the fluid.
+#[test]
+fn a_block_in_a_fluid_of_its_density_floats() {
+    let centre = |snapshot: &Snapshot| snapshot.positions.chunks(2).map(|x| x[1]).sum::<f64>() / snapshot.len() as f64;
+    let [start, end] = run(AFLOAT);
+    let rise = centre(&end) - centre(&start);
+    let places = start.positions.chunks(2).zip(end.stresses.chunks(4));
+    let worst = places.fold(0.0, |worst: f64, (at, stress)| {
+        let pressure = 20.0 * (1.0 - at[1]);
+        worst
+            .max((stress[0] + pressure).abs())
+            .max((stress[3] + pressure).abs())
+    });
+    assert!(rise.abs() < 1e-12 && worst < 6.0, "{rise}, {worst}");
+}

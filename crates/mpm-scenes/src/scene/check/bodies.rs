@@ -2,7 +2,7 @@
 
 use crate::scene::{BodyTable, FillKind, Scene};
 use crate::values::{positive, within};
-use crate::{SceneFault, law, shape, velocity};
+use crate::{SceneFault, law, shape, vector_field};
 
 /// Particles per axis of a cell, at most, and with the basis `gimp`, which is compiled for each number.
 const MOST_PER_AXIS: u32 = 16;
@@ -27,7 +27,7 @@ impl Scene {
             self.check_filling(&field, body)?;
             Self::check_rotation::<D>(&field("rotation"), body.rotation.as_ref())?;
             positive(&field("deformation"), body.deformation.unwrap_or(1.0))?;
-            velocity::build::<D>(&field("velocity"), body.velocity.as_ref(), self)?;
+            vector_field::build::<D>(&field("velocity"), body.velocity.as_ref(), self)?;
         }
         Ok(())
     }

@@ -2,8 +2,8 @@
 
 use super::boundaries::{check_friction, check_presence};
 use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene, StressUpdateName};
-use crate::values::{check, finite, not_negative, vector, within};
-use crate::{SceneFault, velocity};
+use crate::values::{not_negative, within};
+use crate::{SceneFault, facet_traction, vector_field};
 
 impl Scene {
     pub(super) fn check_facets<const D: usize>(&self) -> Result<(), SceneFault> {
@@ -31,7 +31,7 @@ impl Scene {
                 fits,
                 "\"prescribed\", since there is a velocity",
             )?;
-            velocity::build::<D>(&field("velocity"), velocity, self)?;
+            vector_field::build::<D>(&field("velocity"), velocity, self)?;
             check_friction(&field, table.friction, table.condition == FacetCondition::Friction)?;
             self.check_traction::<D>(&field, table)?;
         }
@@ -52,15 +52,12 @@ impl Scene {
             loaded && !by_pressure,
             condition,
         )?;
-        for (key, value) in [("pressure", table.pressure), ("ramp", table.ramp)] {
-            let wanted = loaded && value.is_some();
-            check_presence(field(key), value.as_ref(), wanted, "condition = \"traction\"")?;
-            check(value, &field(key), finite)?;
-        }
+        let (pressure, ramp) = (table.pressure.as_ref(), table.ramp.as_ref());
+        let condition = "condition = \"traction\"";
+        check_presence(field("pressure"), pressure, loaded && by_pressure, condition)?;
+        check_presence(field("ramp"), ramp, loaded && ramp.is_some(), condition)?;
         not_negative(&field("ramp"), table.ramp.unwrap_or(0.0))?;
-        if let Some(traction) = &table.traction {
-            vector::<D>(&field("traction"), traction)?;
-        }
+        facet_traction::build::<D>(field, table, self).map(drop)?;
         let late = !loaded || self.time.stress_update != StressUpdateName::First;
         let expected = "\"last\" or \"modified-last\" with a traction on facets";
         within("time.stress_update", "first", late, expected).map(drop)

@@ -1,23 +1,23 @@
-//! Initial velocities.
+//! Vectors that may differ from place to place.
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// `velocity` of a body: a vector, or a field as in `{ kind = "rotation", centre = [0.0, 0.0], rate = [1.5] }`.
+/// A vector, or a field as in `{ kind = "rotation", centre = [0.0, 0.0], rate = [1.5] }`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum VelocityTable {
-    /// The same for all particles.
+pub enum VectorTable {
+    /// The same everywhere.
     Uniform(Vec<f64>),
     /// Different from place to place.
-    Field(VelocityField),
+    Field(VectorField),
 }
 
-/// A velocity as a function of the position X.
+/// A vector v as a function of the position X.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum VelocityField {
+pub enum VectorField {
     /// v = a sin(k · X + φ).
     Sine {
         /// a.
@@ -30,14 +30,14 @@ pub enum VelocityField {
     },
     /// v = ω × (X − centre).
     Rotation {
-        /// A point that rests.
+        /// A point where v = 0.
         centre: Vec<f64>,
-        /// ω in radians per time: one number in two dimensions, three in three.
+        /// ω, of a velocity in radians per time: one number in two dimensions, three in three.
         rate: Vec<f64>,
     },
     /// v = L (X − centre).
     Linear {
-        /// A point that rests.
+        /// A point where v = 0.
         centre: Vec<f64>,
         /// The rows of L.
         gradient: Vec<Vec<f64>>,
@@ -49,27 +49,27 @@ pub enum VelocityField {
     },
 }
 
-impl<'de> Deserialize<'de> for VelocityTable {
+impl<'de> Deserialize<'de> for VectorTable {
     fn deserialize<S: Deserializer<'de>>(deserializer: S) -> Result<Self, S::Error> {
-        deserializer.deserialize_any(VelocityVisitor)
+        deserializer.deserialize_any(VectorVisitor)
     }
 }
 
 /// Not an untagged enum: that would forget what was wrong with the table.
-struct VelocityVisitor;
+struct VectorVisitor;
 
-impl<'de> Visitor<'de> for VelocityVisitor {
-    type Value = VelocityTable;
+impl<'de> Visitor<'de> for VectorVisitor {
+    type Value = VectorTable;
 
     fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
         formatter.write_str("a vector or a table with a kind")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, entries: A) -> Result<VelocityTable, A::Error> {
-        Vec::deserialize(SeqAccessDeserializer::new(entries)).map(VelocityTable::Uniform)
+    fn visit_seq<A: SeqAccess<'de>>(self, entries: A) -> Result<VectorTable, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(entries)).map(VectorTable::Uniform)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<VelocityTable, A::Error> {
-        VelocityField::deserialize(MapAccessDeserializer::new(entries)).map(VelocityTable::Field)
+    fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<VectorTable, A::Error> {
+        VectorField::deserialize(MapAccessDeserializer::new(entries)).map(VectorTable::Field)
     }
 }

@@ -1,18 +1,18 @@
-//! Initial velocities.
+//! Vectors as functions of the place.
 
 use mpm_tensor::{Matrix, vector as algebra};
 
 use crate::manufactured::in_the_plane;
-use crate::scene::{Scene, VelocityField, VelocityTable};
+use crate::scene::{Scene, VectorField, VectorTable};
 use crate::values::{finite, vector, within};
 use crate::{SceneFault, reference};
 
-/// A velocity as a function of the reference position.
-pub(crate) struct InitialVelocity<const D: usize>(Box<Field<D>>);
+/// v as a function of the place.
+pub(crate) struct PlaceVector<const D: usize>(Box<Field<D>>);
 
 type Field<const D: usize> = dyn Fn(&[f64; D]) -> [f64; D];
 
-impl<const D: usize> InitialVelocity<D> {
+impl<const D: usize> PlaceVector<D> {
     /// v(X) = G (X − c).
     fn linear(centre: [f64; D], gradient: Matrix<D>) -> Self {
         Self(Box::new(move |x| gradient.apply(&algebra::subtract(x, &centre))))
@@ -24,26 +24,26 @@ impl<const D: usize> InitialVelocity<D> {
     }
 }
 
-/// The velocity that a table describes, rest without one.
+/// The field that a table describes, 0 without one.
 ///
 /// # Errors
 /// [`SceneFault::Value`] for vectors of the wrong length and solutions that do not exist.
 pub(crate) fn build<const D: usize>(
     field: &str,
-    table: Option<&VelocityTable>,
+    table: Option<&VectorTable>,
     scene: &Scene,
-) -> Result<InitialVelocity<D>, SceneFault> {
+) -> Result<PlaceVector<D>, SceneFault> {
     let vector_of = |key: &str, list: &[f64]| vector::<D>(&format!("{field}.{key}"), list);
     let table = match table {
-        None => return Ok(InitialVelocity(Box::new(|_| [0.0; D]))),
-        Some(VelocityTable::Uniform(list)) => {
+        None => return Ok(PlaceVector(Box::new(|_| [0.0; D]))),
+        Some(VectorTable::Uniform(list)) => {
             let velocity = vector(field, list)?;
-            return Ok(InitialVelocity(Box::new(move |_| velocity)));
+            return Ok(PlaceVector(Box::new(move |_| velocity)));
         }
-        Some(VelocityTable::Field(table)) => table,
+        Some(VectorTable::Field(table)) => table,
     };
     Ok(match table {
-        VelocityField::Sine {
+        VectorField::Sine {
             amplitude,
             wave_vector,
             phase,
@@ -51,25 +51,25 @@ pub(crate) fn build<const D: usize>(
             let amplitude = vector_of("amplitude", amplitude)?;
             let waves = vector_of("wave_vector", wave_vector)?;
             let phase = finite(&format!("{field}.phase"), *phase)?;
-            InitialVelocity(Box::new(move |x| {
+            PlaceVector(Box::new(move |x| {
                 algebra::scale(&amplitude, (algebra::dot(&waves, x) + phase).sin())
             }))
         }
-        VelocityField::Rotation { centre, rate } => {
-            InitialVelocity::linear(vector_of("centre", centre)?, spin(&format!("{field}.rate"), rate)?)
+        VectorField::Rotation { centre, rate } => {
+            PlaceVector::linear(vector_of("centre", centre)?, spin(&format!("{field}.rate"), rate)?)
         }
-        VelocityField::Linear { centre, gradient } => {
+        VectorField::Linear { centre, gradient } => {
             let mut rows = [[0.0; D]; D];
             let (name, square) = (format!("{field}.gradient"), gradient.len() == D);
             within(&name, gradient, square, &format!("{D} rows"))?;
             for (row, list) in rows.iter_mut().zip(gradient) {
                 *row = vector_of("gradient", list)?;
             }
-            InitialVelocity::linear(vector_of("centre", centre)?, Matrix(rows))
+            PlaceVector::linear(vector_of("centre", centre)?, Matrix(rows))
         }
-        VelocityField::Manufactured { solution } => {
+        VectorField::Manufactured { solution } => {
             let solution = reference::manufactured(solution, scene)?;
-            InitialVelocity(Box::new(move |x| {
+            PlaceVector(Box::new(move |x| {
                 in_the_plane(x, |start| solution.velocity(start, 0.0))
             }))
         }
