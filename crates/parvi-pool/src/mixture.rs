@@ -93,22 +93,34 @@ impl<const D: usize> Mixture<D> {
     /// `count` draws: a scrambled Sobol' sequence whose first coordinate picks the kernel (in the order of the kernels), whose second its radius
     /// and whose others its direction.
     pub fn draws(&self, count: usize, seed: u64) -> Vec<[f64; D]> {
+        self.drawn(seed).map_or_else(Vec::new, |draw| {
+            mpm_parallel::collect(count, TILE, &|index| draw(index as u32))
+        })
+    }
+
+    /// The draw of every number in [`draws`](Self::draws), for whoever does not know how many are wanted.
+    pub(super) fn drawn(&self, seed: u64) -> Option<impl Fn(u32) -> [f64; D] + Sync> {
         let stretch = Stretch::of(freedom(D));
-        self.placed(count, seed, |u, z| vector::scale(z, stretch.at(u)))
+        self.placed(seed, move |u, z| vector::scale(z, stretch.at(u)))
     }
 
     /// As [`draws`](Self::draws), in all directions at the distances `radius`(u) in standard deviations of the kernels, u even in [0, 1).
     pub(super) fn about(&self, count: usize, seed: u64, radius: impl Fn(f64) -> f64 + Sync) -> Vec<[f64; D]> {
-        self.placed(count, seed, |u, z| {
+        let placed = self.placed(seed, |u, z| {
             vector::scale(z, radius(u) / vector::norm(z).max(f64::MIN_POSITIVE))
+        });
+        placed.map_or_else(Vec::new, |place| {
+            mpm_parallel::collect(count, TILE, &|index| place(index as u32))
         })
     }
 
-    /// Places c + L y of kernels picked by their shares, y by `place` of a number even in [0, 1) and of a normal law's draw.
-    fn placed(&self, count: usize, seed: u64, place: impl Fn(f64, &[f64; D]) -> [f64; D] + Sync) -> Vec<[f64; D]> {
-        let Ok(sequence) = SobolSequence::scrambled(D + 2, seed) else {
-            return Vec::new();
-        };
+    /// Places c + L y of kernels picked by their shares, by their numbers, y by `place` of a number even in [0, 1) and of a normal law's draw.
+    fn placed(
+        &self,
+        seed: u64,
+        place: impl Fn(f64, &[f64; D]) -> [f64; D] + Sync,
+    ) -> Option<impl Fn(u32) -> [f64; D] + Sync> {
+        let sequence = SobolSequence::scrambled(D + 2, seed).ok()?;
         let mut cumulated = Vec::with_capacity(self.kernels.len());
         let mut sum = 0.0;
         for kernel in &self.kernels {
@@ -116,15 +128,14 @@ impl<const D: usize> Mixture<D> {
             cumulated.push(sum);
         }
         let last = self.kernels.len() - 1;
-        let draw = |index: u32| {
+        Some(move |index: u32| {
             // Twenty-one coordinates are the most that the sequence has.
             let mut u = [0.0; 21];
             sequence.write(index, &mut u);
             let kernel = &self.kernels[cumulated.partition_point(|&c| c < u[0] * sum).min(last)];
             let z = std::array::from_fn(|axis| normal_quantile(u[axis + 2]));
             vector::add(&kernel.centre, &kernel.factor.apply(&place(u[1], &z)))
-        };
-        mpm_parallel::collect(count, TILE, &|index| draw(index as u32))
+        })
     }
 
     /// Adds `factor` · q(x) to `sums` for every point.

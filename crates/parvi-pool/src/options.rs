@@ -119,7 +119,7 @@ impl Plan {
             self.goal *= 2.0;
         }
         let before = self.evaluations;
-        self.evaluations = (2 * before).min(self.most);
+        self.evaluations = before.saturating_mul(2).min(self.most);
         self.evaluations > before
     }
 

@@ -92,8 +92,11 @@ fn summits<const D: usize>(density: &mut Density<'_, D>, evaluations: u64, seed:
     let law = Mixture::new(wide())?;
     let mut summits: Vec<Summit<D>> = Vec::new();
     let (before, mut idle) = (density.evaluations(), 0);
-    let starts = law.draws(evaluations as usize / (D + 2) + FEWEST, seed);
-    for (scout, drawn) in starts.into_iter().enumerate() {
+    let draw = law.drawn(seed)?;
+    // One by one: most scouts end long before the evaluations do, of which there may be any number.
+    let most = evaluations as usize / (D + 2) + FEWEST;
+    for scout in 0..most.min(u32::MAX as usize) {
+        let drawn = draw(scout as u32);
         let known = summits.len();
         let heavy = heavy(&summits);
         let start = match scout % 3 {

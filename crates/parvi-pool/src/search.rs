@@ -63,7 +63,7 @@ pub(super) fn search<const D: usize>(
     evaluations: u64,
     rng: &mut ChaCha8Rng,
 ) -> (u64, Option<Mixture<D>>) {
-    let until = density.evaluations() + evaluations;
+    let until = density.evaluations().saturating_add(evaluations);
     let Some(mut covered) = Covered::by(folds) else {
         return (0, None);
     };

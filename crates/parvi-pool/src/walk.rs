@@ -41,7 +41,7 @@ pub(super) fn outposts<const D: usize>(
     evaluations: u64,
     density: &mut Density<'_, D>,
 ) -> Sample<D> {
-    let until = density.evaluations() + evaluations;
+    let until = density.evaluations().saturating_add(evaluations);
     let logs = fold.log_weights();
     let (log_evidence, _) = fold.log_evidence();
     let threshold = log_evidence + (UNCOVERED / logs.len() as f64).ln();

@@ -157,6 +157,20 @@ fn few_evaluations_are_exceeded_by_what_a_pool_begins_with_alone() {
 }
 
 #[test]
+fn evaluations_without_a_bound_cost_nothing_by_themselves() {
+    let of = |limit| {
+        let options = PoolOptions {
+            evaluations: Some(limit),
+            ..PoolOptions::default()
+        };
+        pool_with(&Gaussian::<2>::standard(), 100, 1, &options).unwrap()
+    };
+    let (bounded, unbounded) = (of(1_000_000), of(u64::MAX));
+    assert_eq!(unbounded.positions, bounded.positions);
+    assert_eq!(unbounded.log_evidence, bounded.log_evidence);
+}
+
+#[test]
 fn a_quantile_of_no_probability_is_none() {
     let mut pool = pool_of(&Gaussian::<2>::standard(), 50, 1).unwrap();
     for probability in [f64::NAN, -1.0, 1.1, 2.0] {
