@@ -11,6 +11,7 @@
 //!     conformance::stress_is_the_derivative_of_energy(&material, &F, 1e4, "Neo-Hookean");
 //!     conformance::wave_speed_bounds_stiffness(&material, &F, 1000.0, 1e4, "Neo-Hookean");
 //! }
+//! conformance::undefined_is_not_finite::<3>(&material, "Neo-Hookean");
 //! # Ok::<(), mpm_materials::ParameterError>(())
 //! ```
 
@@ -91,6 +92,35 @@ pub fn rotations_do_not_matter<const D: usize>(
     assert!(error < tolerance, "{what}, D = {D}: τ(Q F) is off by {error:e}");
     let error = (stress - stress.transpose()).frobenius_norm();
     assert!(error < tolerance, "{what}, D = {D}: τ is not symmetric by {error:e}");
+}
+
+/// Where [`check`](Material::check) fails, τ, P, ψ and c are not finite, at I with one entry of the diagonal turned round, 0, infinite or no number: a step asks for the stress alone, and a particle with a finite
+/// one may be turned inside out without an error.
+///
+/// # Panics
+///
+/// Where that is not so, with `what` in the message.
+pub fn undefined_is_not_finite<const D: usize>(material: &dyn Material<D>, what: &str) {
+    for entry in [-1.0, -0.5, 0.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        for axis in 0..D {
+            let F = Matrix::diagonal(&std::array::from_fn(|k| if k == axis { entry } else { 1.0 }));
+            if material.check(&F).is_ok() {
+                continue;
+            }
+            let finite = [
+                ("τ", material.kirchhoff_stress(&F).is_finite()),
+                ("P", material.first_piola_kirchhoff(&F).is_finite()),
+                ("ψ", material.energy_density(&F).is_finite()),
+                ("c", material.wave_speed(&F, 1.0).is_finite()),
+            ];
+            for (symbol, is_finite) in finite {
+                assert!(
+                    !is_finite,
+                    "{what}, D = {D}: {symbol} is finite at F = {F:?}, where the material is undefined"
+                );
+            }
+        }
+    }
 }
 
 /// ∂ψ/∂F_ij by five-point differences.

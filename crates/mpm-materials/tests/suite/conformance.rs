@@ -145,6 +145,11 @@ fn wave_speed_bounds_the_acoustic_tensor<const D: usize>(
     is_exact_at_rest::<D>(member.name, density * speed * speed, stiffness, 1e-4 * scale)
 }
 
+fn undefined_is_not_finite<const D: usize>(member: &Member<D>, _: &Sample) -> Result<(), TestCaseError> {
+    conformance::undefined_is_not_finite(member.material, member.name);
+    Ok(())
+}
+
 macro_rules! conform {
     ($($name:ident: $check:ident;)*) => {
         proptest! {
@@ -161,6 +166,7 @@ conform! {
     objectivity_and_isotropy: frames_and_axes_do_not_matter;
     rest: rest_is_as_promised;
     wave_speed: wave_speed_bounds_the_acoustic_tensor;
+    undefined: undefined_is_not_finite;
 }
 
 /// A Neo-Hookean solid of which one promise is not kept.
@@ -172,7 +178,11 @@ impl Material<2> for Lying {
     }
 
     fn kirchhoff_stress(&self, F: &Matrix<2>) -> Matrix<2> {
-        self.0.kirchhoff_stress(F) * if self.1 == "stress" { 1.01 } else { 1.0 }
+        match self.1 {
+            "stress" => self.0.kirchhoff_stress(F) * 1.01,
+            "undefined" if F.determinant() < 0.0 => Matrix::ZERO,
+            _ => self.0.kirchhoff_stress(F),
+        }
     }
 
     fn first_piola_kirchhoff(&self, F: &Matrix<2>) -> Matrix<2> {
@@ -193,6 +203,7 @@ fn holds(promise: &'static str) {
     );
     conformance::stress_is_the_derivative_of_energy(&material, &F, 1.0, "lying");
     conformance::wave_speed_bounds_stiffness(&material, &F, 2.0, 1.0, "lying");
+    conformance::undefined_is_not_finite(&material, "lying");
 }
 
 #[test]
@@ -210,4 +221,10 @@ fn a_stress_that_is_not_that_of_the_energy_is_seen() {
 #[should_panic(expected = "is below the stiffness")]
 fn a_wave_speed_that_is_too_low_is_seen() {
     holds("wave speed");
+}
+
+#[test]
+#[should_panic(expected = "lying, D = 2: τ is finite at F")]
+fn a_stress_of_what_is_turned_inside_out_is_seen() {
+    holds("undefined");
 }
