@@ -49,14 +49,19 @@ impl Outline {
             for (a, b) in corners.iter().zip(following) {
                 let steps = (PARTS * distance(a, b) / size.least()).ceil().max(1.0);
                 GenerationError::check_count(size.least(), steps / PARTS)?;
-                let sums = size.edges_along(a, b, steps as usize);
-                let parts = (sums[sums.len() - 1] - 0.2).ceil().max(1.0);
-                for part in 0..parts as usize {
-                    let goal = sums[sums.len() - 1] * part as f64 / parts;
-                    let next = sums.partition_point(|&sum| sum <= goal).clamp(1, sums.len() - 1);
-                    let within = (goal - sums[next - 1]) / (sums[next] - sums[next - 1]);
-                    let share = ((next - 1) as f64 + within) / steps;
-                    points.push(std::array::from_fn(|axis| a[axis] + share * (b[axis] - a[axis])));
+                // There may be more sums than memory has room for, where a small part of the domain is fine.
+                let sums = || size.edges_along(a, b, steps as usize);
+                let edges = sums().last().unwrap_or(0.0);
+                let parts = (edges - 0.2).ceil().max(1.0);
+                let (mut part, mut before) = (0.0, 0.0);
+                for (step, sum) in sums().enumerate() {
+                    let is_last = step + 1 == steps as usize;
+                    while part < parts && (is_last || edges * part / parts < sum) {
+                        let share = (step as f64 + (edges * part / parts - before) / (sum - before)) / steps;
+                        points.push(std::array::from_fn(|axis| a[axis] + share * (b[axis] - a[axis])));
+                        part += 1.0;
+                    }
+                    before = sum;
                 }
             }
             divided.push(points);

@@ -47,13 +47,14 @@ pub fn scattered(
     scatter: Scatter,
     random: &mut dyn FnMut() -> f64,
 ) -> Result<SimplexMesh<2>, GenerationError> {
-    let outline = Outline::graded(outlines, size)?;
-    if outline.points.is_empty() {
+    let corners = Outline::undivided(outlines)?;
+    if corners.points.is_empty() {
         return Err(MeshError::Empty { what: "vertices" }.into());
     }
-    // Two triangles per vertex, of which each has √3 / 2 h² for itself.
-    let cells = 2.0 / 0.75f64.sqrt() * size.squares_in(outline.bounds());
+    // Two triangles per vertex, of which each has √3 / 2 h² for itself: too many are refused before edges are divided into as fine parts.
+    let cells = 2.0 / 0.75f64.sqrt() * size.squares_in(corners.bounds());
     GenerationError::check_count(size.least(), cells)?;
+    let outline = Outline::graded(outlines, size)?;
     let mut points = outline.points.clone();
     strew(&mut points, &outline, size, scatter.angle, random);
     for _ in 0..scatter.sweeps {

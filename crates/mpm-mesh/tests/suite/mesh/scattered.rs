@@ -135,6 +135,22 @@ fn a_very_fine_place_is_a_few_more_points() {
     );
 }
 
+/// The edges alone would be more than memory has room for.
+#[test]
+fn a_length_that_is_too_short_is_refused_before_anything_is_divided() {
+    let square = [rectangle_outline([0.0; 2], [1.0; 2]).unwrap()];
+    let scatter = Scatter { sweeps: 0, angle: 0.0 };
+    for length in [1e-9, 1e-8, 1e-5] {
+        let field = SizeField::new(length, vec![]).unwrap();
+        let error = scattered(&square, &field, scatter, &mut || 0.5).expect_err("too fine");
+        let expected = 2.0 / 0.75f64.sqrt() / (length * length);
+        assert!(
+            matches!(error, GenerationError::TooFine { cells, .. } if (cells / expected - 1.0).abs() < 1e-9),
+            "{error}"
+        );
+    }
+}
+
 #[test]
 fn a_seed_is_a_mesh() {
     let size = SizeField::new(0.1, vec![]).unwrap();
