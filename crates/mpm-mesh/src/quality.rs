@@ -32,6 +32,10 @@ impl<const D: usize> SimplexMesh<D> {
     /// * inscribed radius r = 1 / Σ_k |g_k|, since 1 / |g_k| are the heights;
     /// * circumcentre x₀ + ½ Σ_{k > 0} |x_k − x₀|² g_k;
     /// * angle between the facets opposite i and j: arccos(−g_i · g_j / (|g_i| |g_j|)).
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn quality(&self, cell: usize) -> Quality {
         let frame = self.frame(cell);
         let gradient = |k: usize| frame.gradient(k);

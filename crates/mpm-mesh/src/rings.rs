@@ -29,6 +29,10 @@ impl Rings {
     }
 
     /// The ring of a cell.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     #[inline(always)]
     pub fn ring(&self, cell: usize) -> &[u32] {
         self.lists.get(cell)

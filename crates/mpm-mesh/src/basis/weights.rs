@@ -173,6 +173,10 @@ impl<const D: usize> MeshBasis<D> {
 
     /// All weights that a particle at `x` has if it is taken to be in `cell`, in the numbering of the basis: on a face, the limits from either
     /// side.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn weights_from(&self, cell: u32, x: &[f64; D]) -> Vec<WeightAt<D>> {
         let (ring, mut lanes) = (self.stencils.ring(cell), RingLanes::new(self.weight));
         self.collect(cell, &mut lanes, self.stencils.groups(cell), self.stencils.vertices());
@@ -204,6 +208,10 @@ impl<const D: usize> MeshBasis<D> {
 
     /// Smallest weight in a cell, in the numbering of the basis, over the points with barycentric coordinates k / `divisions`, k whole; negative weights are
     /// small inside a mesh of usual shape and larger at its boundary.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn minimum_weight(&self, cell: u32, divisions: usize) -> f64 {
         let vertices = self.mesh().cell(cell as usize);
         let mut least = f64::INFINITY;

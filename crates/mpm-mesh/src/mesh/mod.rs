@@ -82,6 +82,10 @@ impl<const D: usize> SimplexMesh<D> {
     }
 
     /// The D + 1 vertices of a cell.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn cell(&self, cell: usize) -> &[u32] {
         &self.cells[cell * (D + 1)..(cell + 1) * (D + 1)]
     }
@@ -92,16 +96,28 @@ impl<const D: usize> SimplexMesh<D> {
     }
 
     /// D + 1 cells, the k-th across the facet opposite the k-th vertex of `cell`; [`NO_CELL`] at the boundary.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn neighbours(&self, cell: usize) -> &[u32] {
         &self.neighbours[cell * (D + 1)..(cell + 1) * (D + 1)]
     }
 
     /// Volume of a cell (length, area), det(x₁ − x₀, …, x_D − x₀) / D!; positive.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn volume(&self, cell: usize) -> f64 {
         signed_volume(&self.vertices, self.cell(cell))
     }
 
     /// The barycentric coordinates of a cell and their gradients.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     pub fn frame(&self, cell: usize) -> Frame<D> {
         Frame::new(&self.vertices, self.cell(cell))
     }

@@ -86,6 +86,10 @@ impl<const D: usize> CellSearch<D> {
     }
 
     /// Barycentric coordinates b_1, …, b_D of `x` in a cell, wherever `x` is.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such cell, as an index of a slice does.
     #[inline(always)]
     pub fn barycentric(&self, cell: u32, x: &[f64; D]) -> [f64; D] {
         self.frames[cell as usize].coordinates(x)
