@@ -61,13 +61,15 @@ where
     M: Medium<D>,
     F: BodyForce<D>,
 {
-    /// A body in free space, at time 0. The affine moments B_p = 0 are added to the particles where the transfer needs them; F_p and V⁰_p, where the
-    /// medium needs them, come from [`Particles::with_elastic_state`] and [`Particles::with_states`].
+    /// A body in free space, at time 0. The affine moments B_p = 0 are added to the particles where the transfer needs them and there are none, and velocity gradients L_p = 0
+    /// where the medium does; F_p and V⁰_p, where the medium needs them, come from [`Particles::with_elastic_state`] and [`Particles::with_states`]. Fields of another length than the
+    /// positions are errors of the first step.
     pub fn new(mut particles: Particles<D, M::State>, basis: B, transfer: T, medium: M, body_force: F) -> Self {
-        if T::AFFINE {
+        // Some of another length are left as they are, for the step to refuse.
+        if T::AFFINE && particles.affine.is_empty() {
             particles.affine.resize(particles.len(), Matrix::ZERO);
         }
-        if medium.rate_dependent() {
+        if medium.rate_dependent() && particles.velocity_gradients.is_empty() {
             particles.velocity_gradients.resize(particles.len(), Matrix::ZERO);
         }
         Self {

@@ -1,11 +1,11 @@
 //! States that the step refuses: what it says, and that the particles stay as they were.
 
 use mpm_core::{
-    Basis, BodyForce, ForceLocation, Masses, Medium, Mpm, MpmError, Particles, Pic, SimplexLattice, Sites, SplineGrid,
-    Transfer, UniformBasis,
+    Apic, Basis, BodyForce, Continuum, ForceLocation, Masses, Medium, Mpm, MpmError, Particles, Pic, SimplexLattice,
+    Sites, SplineGrid, Transfer, UniformBasis,
 };
 use mpm_kernels::{Linear, Quadratic};
-use mpm_materials::{DeformationError, ElasticModuli, IsothermalGas, LinearElastic};
+use mpm_materials::{DeformationError, ElasticModuli, IsothermalGas, KelvinVoigt, LinearElastic};
 use mpm_tensor::Matrix;
 
 use crate::scenes::{Pull, bits, free, gaussian_cloud, matrix_bits, neo_hookean, solid};
@@ -234,6 +234,31 @@ fn missing_and_misfitting_fields_are_named() {
     assert_eq!(field(elastic(), |p| p.velocities.push([0.0; 2])), "velocities");
     assert_eq!(field(elastic(), |p| p.affine.push(Matrix::ZERO)), "affine");
     assert_eq!(field(elastic(), |p| p.masses = Masses::Each(vec![1.0])), "masses");
+}
+
+/// A body that goes on from a list of another one: neither cut nor filled with zeros.
+#[test]
+fn misfitting_fields_that_a_body_would_add_are_named() {
+    let viscous = || Continuum {
+        law: KelvinVoigt::new(ElasticModuli::new(1.0, 0.3).unwrap(), 0.1).unwrap(),
+    };
+    for length in [1, COUNT - 1, COUNT + 1] {
+        let mut particles = cloud().with_elastic_state(vec![0.1; COUNT]);
+        particles.affine = vec![Matrix::ZERO; length];
+        let error = refused(&mut Mpm::new(particles, grid(), Apic, neo_hookean(1.0), Pull::none()));
+        assert!(
+            matches!(error, MpmError::FieldLength { field: "affine", .. }),
+            "{error}"
+        );
+        let mut particles = cloud().with_elastic_state(vec![0.1; COUNT]);
+        particles.velocity_gradients = vec![Matrix::ZERO; length];
+        let error = refused(&mut Mpm::new(particles, grid(), Pic, viscous(), Pull::none()));
+        let field = "velocity_gradients";
+        assert!(
+            matches!(error, MpmError::FieldLength { field: named, .. } if named == field),
+            "{error}"
+        );
+    }
 }
 
 #[test]
