@@ -3,9 +3,10 @@
 use mpm_tensor::{Matrix, vector};
 
 use crate::MpmError;
+use crate::error::within;
 use crate::largest::larger_or_nan;
 
-/// Particle masses.
+/// Particle masses, ≥ 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Masses {
     /// All the same; nothing is stored per particle.
@@ -196,6 +197,16 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
             }
         }
         Ok(())
+    }
+
+    /// Whether no mass is below 0; what one that is no number does is found at the nodes.
+    pub(crate) fn check_masses(&self) -> Result<(), MpmError> {
+        let masses = match &self.masses {
+            Masses::Equal(mass) => std::slice::from_ref(mass),
+            Masses::Each(masses) => masses,
+        };
+        let negative = masses.iter().find(|mass| **mass < 0.0);
+        negative.map_or(Ok(()), |&mass| within("masses", mass, false, "at least 0"))
     }
 
     /// Number of particles M.

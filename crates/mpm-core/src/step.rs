@@ -27,6 +27,7 @@ impl<const D: usize, B: Basis<D>, T: Transfer<D>, M: Medium<D>, F: BodyForce<D>,
             .check_lengths(T::AFFINE, M::DEFORMS, self.medium.rate_dependent())?;
         let h = self.basis.spacing();
         let dt = choose_time_step(&self.medium, &self.particles, control, h)?;
+        self.particles.check_masses()?;
         let damping = control.damping(dt);
 
         self.basis.expect_affine_directions(T::AFFINE);

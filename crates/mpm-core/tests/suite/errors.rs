@@ -151,6 +151,27 @@ fn a_velocity_that_is_not_finite_is_found_at_a_node() {
     assert!(matches!(refused(&mut mpm), MpmError::VelocityNotFinite { .. }));
 }
 
+/// Of a gas, whose wave speed knows no mass.
+#[test]
+fn a_mass_below_zero_is_refused() {
+    let mut each = vec![0.02; COUNT];
+    each[7] = -0.02;
+    for masses in [Masses::Equal(-0.02), Masses::Each(each)] {
+        let mut mpm = Mpm::new(cloud(), grid(), Pic, IsothermalGas::CALIBRATED, Pull::none());
+        mpm.particles.masses = masses;
+        let error = refused(&mut mpm);
+        let named = matches!(
+            error,
+            MpmError::InvalidParameter {
+                field: "masses",
+                value: -0.02,
+                ..
+            }
+        );
+        assert!(named, "{error}");
+    }
+}
+
 #[test]
 fn an_inverted_particle_is_named() {
     let particles = cloud().with_elastic_state(vec![0.1; COUNT]);
