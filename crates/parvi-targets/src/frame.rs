@@ -5,6 +5,9 @@ use mpm_tensor::{Cholesky, Matrix, power_of_two, vector};
 use crate::TargetError;
 use crate::error::{finite, positive};
 
+/// By how much the sum of weights may be off one: rounding, also of what was written to a file with few digits.
+const LARGEST_ERROR_OF_SUM: f64 = 1e-6;
+
 /// The frame x = μ + L z, with L the lower triangular factor of a covariance C = L Lᵀ.
 ///
 /// `x` are the target's own coordinates, `z` the reference coordinates in which a density with mean μ and
@@ -24,6 +27,14 @@ impl<const D: usize> Frame<D> {
 
     /// The frame of a mean μ = `centre` and a covariance C: L is the Cholesky factor of C.
     ///
+    /// ```
+    /// use parvi_targets::{Frame, Matrix};
+    ///
+    /// let frame = Frame::new([1.0, -2.0], Matrix([[4.0, 1.2], [1.2, 1.0]]))?; // standard deviations 2 and 1, correlation 0.6
+    /// assert_eq!(frame.to_target(&[1.0, 0.0]), [3.0, -1.4]);
+    /// # Ok::<(), parvi_targets::TargetError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`TargetError::NotFinite`], [`TargetError::NotSymmetric`] (beyond 1e-9 of the geometric mean of the two
     /// variances) or [`TargetError::NotPositiveDefinite`].
@@ -38,13 +49,21 @@ impl<const D: usize> Frame<D> {
     /// The frame of the mean and the covariance of points with weights that sum to one (`None`: equal ones).
     ///
     /// # Errors
-    /// As [`new`](Self::new), also where the points lie in a plane; [`TargetError::Length`] unless every point has a weight.
+    /// As [`new`](Self::new), also where the points lie in a plane; [`TargetError::Length`] unless every point has a weight, [`TargetError::OutOfRange`] for weights whose sum is off one by more than 1e-6.
     pub fn of_points(points: &[[f64; D]], weights: Option<&[f64]>) -> Result<Self, TargetError> {
         if let Some(weights) = weights.filter(|weights| weights.len() != points.len()) {
             return Err(TargetError::Length {
                 field: "the weights of the points".to_owned(),
                 expected: points.len(),
                 found: weights.len(),
+            });
+        }
+        let sum = weights.map_or(1.0, |weights| weights.iter().sum());
+        if (sum - 1.0).abs() > LARGEST_ERROR_OF_SUM {
+            return Err(TargetError::OutOfRange {
+                field: "the sum of the weights of the points".to_owned(),
+                value: sum,
+                allowed: "1",
             });
         }
         let weight = |p: usize| weights.map_or(1.0 / points.len() as f64, |weights| weights[p]);

@@ -144,6 +144,15 @@ fn bad_frames_are_refused() {
             Err(TargetError::Length { expected: 3, .. })
         ));
     }
+    for weights in [[1.0, 2.0, 1.0], [0.25, 0.5, 0.26]] {
+        assert!(matches!(
+            Frame::of_points(&[[0.0], [1.0], [2.0]], Some(&weights)),
+            Err(TargetError::OutOfRange { value, .. }) if value == weights.iter().sum()
+        ));
+    }
+    let weighted = Frame::of_points(&[[0.0], [1.0], [2.0]], Some(&[0.25, 0.5, 0.25])).unwrap();
+    assert_eq!(*weighted.centre(), [1.0]);
+    assert!((weighted.factor().0[0][0] - 0.5f64.sqrt()).abs() < 1e-15);
     // Scales from 1e-150 to 1e150 are no obstacle.
     assert!(Frame::new([0.0; 2], Matrix([[1e-300, 0.0], [0.0, 1e300]])).is_ok());
 }
