@@ -42,6 +42,9 @@ mod synthetic;
 mod target;
 mod weighted_draws;
 
+/// Covariances, of frames and moments.
+pub use mpm_tensor::Matrix;
+
 pub use banana::Banana;
 pub use calls::{log_densities_in_calls, scores_in_calls};
 #[cfg(feature = "catalogue")]
