@@ -169,18 +169,19 @@ pub struct TracePoint {
     pub displacement: f64,
 }
 
-/// Progress of a run, handed to the observer after every step.
-#[derive(Clone, Copy, Debug)]
+/// Progress of a part of a run, handed to the observer after every step of it: a round of a survey, a step of a body, a temperature of `smc`, a draw of `nuts`, a choice of `stein-thinning`. A run of
+/// `mpm` has a survey and, where the pool needs evening out, bodies after it, and each of these counts from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Steps done.
+    /// Steps of this part that are done.
     pub step: usize,
-    /// Steps in all.
+    /// Steps of this part in all, at most: of a survey as many rounds as its evaluations would do for, which changes from one to the next; of `smc`, which does not know, one more as long as it goes on.
     pub steps: usize,
 }
 
 /// Watches a run; a return of `Break` stops it with [`SampleError::Interrupted`].
 pub trait Observer {
-    /// Called after every step. The default goes on.
+    /// Called after every step, and after every round of a survey. The default goes on.
     fn after_step(&mut self, _progress: Progress) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -380,7 +381,7 @@ pub enum SampleError {
     /// The observer stopped the run.
     #[error("interrupted after step {step}")]
     Interrupted {
-        /// Steps done.
+        /// Steps done, as [`Progress::step`] counts them.
         step: usize,
     },
 }

@@ -31,11 +31,11 @@ const RIDGE: f64 = 1e-11;
 pub struct Expectation {
     /// The average of f over the particles.
     pub average: f64,
-    /// c, the estimate of E_p\[f\] by the regression.
+    /// c, the estimate of E_p\[f\] by the regression, or that of the pool where [`expectation`](crate::expectation) finds it better.
     pub estimate: f64,
     /// Standard deviation of f over the particles.
     pub standard_deviation: f64,
-    /// Standard deviation of r, what the polynomials leave unexplained.
+    /// Standard deviation of r, what the polynomials leave unexplained; over the root of the number of particles, where these have equal weights, it is the standard error of the estimate, also of the pool's.
     pub unexplained: f64,
     /// Standard error of the average: ((c − average)² + sd(r)² / ESS)^½. The part that is not explained is taken to be no worse than from
     /// independent draws.
