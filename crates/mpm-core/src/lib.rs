@@ -33,8 +33,8 @@ mod volume_averaging;
 pub use basis::{Basis, Member, NO_NODE, UniformBasis};
 pub use body_force::{BodyForce, ForceLocation, NoBodyForce, Sites};
 pub use boundary::{
-    Boundaries, Boundary, Contact, Extents, GridMotion, HalfSpace, HeldNode, HeldSurface, ImageNode, Loading,
-    NoBoundary, NodeForces, ON_A_SURFACE, Obstacle, Plane, PrescribedVelocity, SignedDistance, VirtualStress,
+    Amplitude, Boundaries, Boundary, Contact, Extents, GridMotion, HalfSpace, HeldNode, HeldSurface, ImageNode,
+    Loading, NoBoundary, NodeForces, ON_A_SURFACE, Obstacle, Plane, PrescribedVelocity, SignedDistance, VirtualStress,
 };
 pub use cell_sort::CellSort;
 pub use contact::{ContactPoint, ContactPotential};

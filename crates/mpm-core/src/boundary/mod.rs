@@ -1,5 +1,6 @@
 //! What the velocities of the nodes obey beside the balance of momentum: walls and obstacles.
 
+mod amplitude;
 mod contact;
 mod folds;
 mod held_surface;
@@ -13,6 +14,7 @@ mod role;
 mod signed_distance;
 mod surface;
 
+pub use amplitude::Amplitude;
 pub use contact::Contact;
 pub use held_surface::{HeldNode, HeldSurface, ImageNode};
 pub use node_forces::{NodeForces, VirtualStress};

@@ -3,7 +3,7 @@
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::scale;
 
-use super::Loading;
+use super::{Amplitude, Loading};
 use crate::{Basis, GridNode, NO_NODE};
 
 /// A symmetric stress σ̂(x) that stands for a load: the particles carry it beside their own, with the other sign, so that a body whose stress it is feels no
@@ -16,25 +16,20 @@ pub trait VirtualStress<const D: usize>: Send + Sync {
     fn nodes(&self) -> &[[f64; D]];
 }
 
-/// Forces at nodes, s (f_i + Σ_p V_p σ̂(x_p) ∇w_ip), where s = min(t / `ramp`, 1) and V_p is the present volume. Nodes without mass have nothing to move.
+/// Forces at nodes, s(t) (f_i + Σ_p V_p σ̂(x_p) ∇w_ip), where V_p is the present volume. Nodes without mass have nothing to move.
 #[derive(Default)]
 pub struct NodeForces<const D: usize> {
     /// Position and force f_i of every node.
     pub forces: Vec<([f64; D], [f64; D])>,
     /// σ̂, if there is one.
     pub stress: Option<Box<dyn VirtualStress<D>>>,
-    /// Time over which they grow in proportion to t; 0: they are there at once.
-    pub ramp: f64,
+    /// s.
+    pub amplitude: Amplitude,
 }
 
 impl<const D: usize> NodeForces<D> {
     pub(super) fn push<B: Basis<D>, N: GridNode<D>>(&self, basis: &B, loading: &Loading<D>, nodes: &mut [N]) {
-        let share = if loading.time < self.ramp {
-            loading.time / self.ramp
-        } else {
-            1.0
-        };
-        let time_step = share * loading.time_step;
+        let time_step = self.amplitude.at(loading.time) * loading.time_step;
         for (position, force) in &self.forces {
             let number = basis.node_number(position);
             if let Some(node) = number.and_then(|number| nodes.get_mut(number as usize)) {

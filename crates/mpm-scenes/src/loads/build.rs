@@ -1,9 +1,11 @@
 //! From the tables of a scene to its forces.
 
+use mpm_core::Amplitude;
+
 use super::{Barrier, DirectLoad, Loads};
 use crate::background::Background;
 use crate::population::Population;
-use crate::scene::{BarrierAgainst, BarrierIntegration, BarrierTable, LoadTable, Scene, ShapeTable};
+use crate::scene::{BarrierAgainst, BarrierIntegration, BarrierTable, LoadTable, Scene, ShapeTable, amplitude};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::{vector, within as within_range};
 use crate::{SceneFault, reference, shape};
@@ -20,7 +22,7 @@ impl<const D: usize> Loads<D> {
         };
         if !scene.gravity.is_empty() {
             loads.gravity = Some(vector("gravity", &scene.gravity)?);
-            loads.gravity_ramp = scene.gravity_ramp;
+            loads.gravity_amplitude = Amplitude::ramp(scene.gravity_ramp);
         }
         for (index, table) in scene.loads.iter().enumerate() {
             let field = |key: &str| format!("loads[{index}].{key}");
@@ -39,8 +41,10 @@ impl<const D: usize> Loads<D> {
                         _ => force.map(|c| c / mass),
                     };
                 }
-                let ramp = part.ramp;
-                loads.direct.push(DirectLoad { accelerations, ramp });
+                loads.direct.push(DirectLoad {
+                    accelerations,
+                    amplitude: amplitude(&field, part.ramp, part.amplitude)?,
+                });
             }
             if let LoadTable::Manufactured { solution } = table {
                 loads.manufactured.push(reference::manufactured(solution, scene)?);

@@ -1,4 +1,6 @@
-use mpm_core::{BodyForce, ContactPoint, ContactPotential, ForceLocation, Friction, MpmError, Particles, Sites};
+use mpm_core::{
+    Amplitude, BodyForce, ContactPoint, ContactPotential, ForceLocation, Friction, MpmError, Particles, Sites,
+};
 use mpm_tensor::vector;
 use rayon::prelude::*;
 
@@ -11,8 +13,8 @@ use crate::{LawState, ManufacturedSolution};
 pub struct Loads<const D: usize> {
     /// Acceleration of all particles; zero for none.
     pub gravity: Option<[f64; D]>,
-    /// Time T up to which gravity grows as t / T; 0 for none.
-    pub gravity_ramp: f64,
+    /// The share of it that acts.
+    pub gravity_amplitude: Amplitude,
     /// Loads on some.
     pub direct: Vec<DirectLoad<D>>,
     /// Body forces of manufactured solutions.
@@ -35,13 +37,10 @@ const PIECE: usize = 1 << 10;
 impl<const D: usize> Loads<D> {
     /// The acceleration of a particle, without the barrier.
     fn acceleration(&self, identity: usize, time: f64) -> [f64; D] {
-        let mut sum = self.gravity.unwrap_or([0.0; D]);
-        if time < self.gravity_ramp {
-            sum = vector::scale(&sum, time / self.gravity_ramp);
-        }
+        let mut sum = vector::scale(&self.gravity.unwrap_or([0.0; D]), self.gravity_amplitude.at(time));
         for load in &self.direct {
             if let Some(acceleration) = load.accelerations.get(identity) {
-                vector::accumulate(&mut sum, load.share(time), acceleration);
+                vector::accumulate(&mut sum, load.amplitude.at(time), acceleration);
             }
         }
         for solution in &self.manufactured {
@@ -55,7 +54,7 @@ impl<const D: usize> Loads<D> {
 
     /// Whether forces act that neither gravity's energy nor the barrier's stands for.
     pub(crate) fn has_more_than_potentials(&self) -> bool {
-        self.gravity_ramp > 0.0 || !self.direct.is_empty() || !self.manufactured.is_empty()
+        !self.gravity_amplitude.is_one() || !self.direct.is_empty() || !self.manufactured.is_empty()
     }
 
     /// Whether there is a barrier whose forces are those at the start of a step.

@@ -11,7 +11,7 @@ use super::held_facets::{behind, held, vertex_normals};
 use super::tractions::Tractions;
 use crate::background::{Background, facet_keys, named_facets, smooth_parts};
 use crate::population::Population;
-use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene};
+use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene, amplitude};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::within;
 use crate::{SceneFault, facet_traction, vector_field};
@@ -165,10 +165,11 @@ pub(super) fn build<const D: usize>(
                     .peekable();
                 let expected = "a group with a facet that a body touches: the traction acts on none";
                 within(&field("group"), &table.group, loaded.peek().is_some(), expected)?;
+                let amplitude = amplitude(&field, table.ramp, table.amplitude.as_ref())?;
                 for facet in loaded {
                     let position = |vertex: u32| &inner.vertices()[vertex as usize];
                     let at_vertices = facet.vertices.map(|vertex| traction(position(vertex), &facet.normal));
-                    tractions.add(table.ramp.unwrap_or(0.0), &facet, &at_vertices);
+                    tractions.add(&amplitude, &facet, &at_vertices);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mpm_core::NodeForces;
+use mpm_core::{Amplitude, NodeForces};
 use mpm_mesh::{BoundaryFacet, MeshBasis, SimplexMesh};
 use mpm_tensor::vector as algebra;
 
@@ -15,11 +15,14 @@ fn place<const D: usize>(facet: &BoundaryFacet<D>) -> Place {
     (facet.cell, facet.opposite)
 }
 
+/// t at the vertices of facets.
+type AtFacets<const D: usize> = BTreeMap<Place, [[f64; D]; D]>;
+
 /// The tractions of a scene.
 #[derive(Default)]
 pub(super) struct Tractions<const D: usize> {
-    /// The bits of the time over which they grow, and t at the vertices by facet.
-    loads: BTreeMap<u64, BTreeMap<Place, [[f64; D]; D]>>,
+    /// Those with one amplitude together: t at the vertices by facet.
+    loads: Vec<(Amplitude, AtFacets<D>)>,
     /// Facets at which something else says what happens.
     held: BTreeSet<Place>,
 }
@@ -30,16 +33,20 @@ impl<const D: usize> Tractions<D> {
         self.held.insert(place(facet));
     }
 
-    /// A force per area more, by the vertices of a facet, which grows over the time `ramp` ≥ 0.
-    pub fn add(&mut self, ramp: f64, facet: &BoundaryFacet<D>, tractions: &[[f64; D]; D]) {
-        let load = self.loads.entry(ramp.abs().to_bits()).or_default();
-        let sums = load.entry(place(facet)).or_insert([[0.0; D]; D]);
+    /// A force per area more, by the vertices of a facet.
+    pub fn add(&mut self, amplitude: &Amplitude, facet: &BoundaryFacet<D>, tractions: &[[f64; D]; D]) {
+        let known = self.loads.iter().position(|(other, _)| other == amplitude);
+        let number = known.unwrap_or_else(|| {
+            self.loads.push((amplitude.clone(), BTreeMap::new()));
+            self.loads.len() - 1
+        });
+        let sums = self.loads[number].1.entry(place(facet)).or_insert([[0.0; D]; D]);
         for (sum, traction) in sums.iter_mut().zip(tractions) {
             algebra::accumulate(sum, 1.0, traction);
         }
     }
 
-    /// All of them, those that grow alike together.
+    /// All of them, those with one amplitude together.
     pub fn forces<E>(
         &self,
         basis: impl FnOnce() -> Result<MeshBasis<D>, E>,
@@ -50,7 +57,7 @@ impl<const D: usize> Tractions<D> {
             return Ok(Vec::new());
         }
         let (basis, boundary) = (basis()?, inner.boundary());
-        let of_load = |(&ramp, tractions): (&u64, &BTreeMap<Place, [[f64; D]; D]>)| {
+        let of_load = |(amplitude, tractions): &(Amplitude, AtFacets<D>)| {
             let known =
                 |facet: &&BoundaryFacet<D>| tractions.contains_key(&place(facet)) || !self.held.contains(&place(facet));
             let loaded = |facet: &BoundaryFacet<D>| LoadedFacet {
@@ -58,7 +65,7 @@ impl<const D: usize> Tractions<D> {
                 tractions: tractions.get(&place(facet)).copied().unwrap_or([[0.0; D]; D]),
             };
             let facets: Vec<_> = boundary.iter().filter(known).map(loaded).collect();
-            node_forces(&basis, (inner, whole), &facets, f64::from_bits(ramp))
+            node_forces(&basis, (inner, whole), &facets, amplitude.clone())
         };
         Ok(self.loads.iter().map(of_load).collect())
     }
@@ -74,7 +81,7 @@ fn node_forces<const D: usize>(
     basis: &MeshBasis<D>,
     (inner, whole): (&SimplexMesh<D>, &SimplexMesh<D>),
     facets: &[LoadedFacet<D>],
-    ramp: f64,
+    amplitude: Amplitude,
 ) -> NodeForces<D> {
     let stresses = virtual_stresses(whole, facets);
     let (facet_rule, cell_rule) = (simplex_rule(D - 1), simplex_rule(D));
@@ -121,7 +128,7 @@ fn node_forces<const D: usize>(
     NodeForces {
         forces: loaded.map(|(vertex, force)| (position(vertex), force)).collect(),
         stress: Some(Box::new(in_cells(whole, stresses))),
-        ramp,
+        amplitude,
     }
 }
 
@@ -186,7 +193,7 @@ mod tests {
         };
         let facets: Vec<_> = inner.boundary().into_iter().map(loaded).collect();
         let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
-        let forces = node_forces(&basis, (&inner, &whole), &facets, 0.0).forces;
+        let forces = node_forces(&basis, (&inner, &whole), &facets, Amplitude::default()).forces;
         for (x, f) in forces {
             algebra::accumulate(&mut force, 1.0, &f);
             moment += Matrix::outer(&f, &x);
@@ -222,7 +229,7 @@ mod tests {
         for width in [KernelWidth::LongestEdge, KernelWidth::Local] {
             let basis = MeshBasis::new(&whole).expect("a basis").with_kernel_width(width);
             let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
-            for (x, f) in node_forces(&basis, (&inner, &whole), &facets, 0.0).forces {
+            for (x, f) in node_forces(&basis, (&inner, &whole), &facets, Amplitude::default()).forces {
                 algebra::accumulate(&mut force, 1.0, &f);
                 moment += Matrix::outer(&f, &x);
             }

@@ -22,6 +22,8 @@ pub struct FacetTable {
     pub pressure: Option<PressureTable>,
     /// Time over which a traction grows. Default 0.
     pub ramp: Option<f64>,
+    /// Instead of `ramp`: times and the shares of a traction then.
+    pub amplitude: Option<Vec<[f64; 2]>>,
 }
 
 /// What the group of a table must be, where there is no mesh.

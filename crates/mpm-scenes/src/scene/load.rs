@@ -6,7 +6,7 @@ use super::ShapeTable;
 
 /// `[[loads]]`: a force on particles that are in a region at t = 0, whether they stay there or not.
 ///
-/// A load with a `ramp` grows in proportion to the time up to t = ramp and is constant afterwards.
+/// A load with a `ramp` grows in proportion to the time up to t = ramp and is constant afterwards; an `amplitude` is any function that is linear between moments.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum LoadTable {
@@ -19,8 +19,9 @@ pub enum LoadTable {
         /// The total force.
         force: Vec<f64>,
         /// Time over which it grows. Default 0.
-        #[serde(default)]
-        ramp: f64,
+        ramp: Option<f64>,
+        /// Instead: times and the shares of the load then.
+        amplitude: Option<Vec<[f64; 2]>>,
     },
     /// A force t per area, spread over a layer of thickness ℓ below the surface: every particle in the region feels t V⁰_p / ℓ.
     Traction {
@@ -33,8 +34,9 @@ pub enum LoadTable {
         /// ℓ.
         thickness: f64,
         /// Time over which it grows. Default 0.
-        #[serde(default)]
-        ramp: f64,
+        ramp: Option<f64>,
+        /// Instead: times and the shares of the load then.
+        amplitude: Option<Vec<[f64; 2]>>,
     },
     /// The body force of a manufactured solution, on all particles.
     Manufactured {
@@ -49,26 +51,29 @@ pub(crate) struct LoadPart<'a> {
     pub body: Option<&'a String>,
     /// Force or traction, and its key.
     pub force: (&'static str, &'a [f64]),
-    pub ramp: f64,
+    pub ramp: Option<f64>,
+    pub amplitude: Option<&'a Vec<[f64; 2]>>,
 }
 
 impl LoadTable {
     /// What a load acts on, unless that is all particles.
     pub(crate) fn part(&self) -> Option<LoadPart<'_>> {
-        let (region, body, force, ramp) = match self {
+        let (region, body, force, ramp, amplitude) = match self {
             Self::PointForce {
                 region,
                 body,
                 force,
                 ramp,
-            } => (region, body, ("force", force), ramp),
+                amplitude,
+            } => (region, body, ("force", force), ramp, amplitude),
             Self::Traction {
                 region,
                 body,
                 traction,
                 ramp,
+                amplitude,
                 ..
-            } => (region, body, ("traction", traction), ramp),
+            } => (region, body, ("traction", traction), ramp, amplitude),
             Self::Manufactured { .. } => return None,
         };
         Some(LoadPart {
@@ -76,6 +81,7 @@ impl LoadTable {
             body: body.as_ref(),
             force: (force.0, force.1.as_slice()),
             ramp: *ramp,
+            amplitude: amplitude.as_ref(),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! The document: what a scene file says, one table per file.
 
+mod amplitude;
 mod barrier;
 mod body;
 mod boundary;
@@ -24,6 +25,7 @@ use std::path::PathBuf;
 use mpm_core::VolumeAveraging;
 use serde::Deserialize;
 
+pub(crate) use amplitude::amplitude;
 pub use barrier::{BarrierAgainst, BarrierIntegration, BarrierTable};
 pub use body::{BodyTable, FillKind};
 pub use boundary::{

@@ -224,6 +224,13 @@ fn groups_that_name_nothing_are_refused() {
             "facets[0].pressure",
         ),
         (
+            vec![(
+                "condition = \"prescribed\"",
+                "condition = \"prescribed\"\namplitude = [[0.0, 1.0]]",
+            )],
+            "facets[0].amplitude",
+        ),
+        (
             vec![
                 (
                     "condition = \"prescribed\"",
@@ -269,6 +276,36 @@ fn groups_that_name_nothing_are_refused() {
                 (velocity, "[output]"),
             ],
             "facets[0].traction.gradient",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = 1.0\namplitude = []",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].amplitude",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = 1.0\namplitude = [[1.0, 0.0], [0.5, 1.0]]",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].amplitude",
+        ),
+        (
+            vec![
+                (
+                    "condition = \"prescribed\"",
+                    "condition = \"traction\"\npressure = 1.0\nramp = 1.0\namplitude = [[0.0, 0.0], [0.5, 1.0]]",
+                ),
+                (velocity, "[output]"),
+            ],
+            "facets[0].ramp",
         ),
         (
             vec![

@@ -188,6 +188,27 @@ fn gravity_grows_up_to_its_ramp() {
     assert!(momentum[20] > 2.9);
 }
 
+/// A free body of mass M under a pulse s(t) F has the momentum F ∫ s dt: that of a force on all of it, and of a traction in a layer.
+#[test]
+fn a_pulse_gives_its_area_of_momentum() {
+    let pulse = "amplitude = [[0.2, 0.0], [0.6, 3.0], [0.8, -1.0], [1.0, 0.0]]";
+    let region = "region = { kind = \"box\", lower = [-99.0], upper = [99.0] }";
+    for (load, force) in [
+        ("kind = \"point-force\"\nforce = [5.0]", 5.0),
+        ("kind = \"traction\"\ntraction = [0.5]\nthickness = 1.0", 5.0),
+    ] {
+        let table = format!("[[loads]]\n{load}\n{region}\n{pulse}\n");
+        let pushed = series(&[(SWING, ""), (WALL, "")], &table);
+        let momentum = pushed.column("momentum_x").expect("a column");
+        let exact = force * (0.6 + 0.2 - 0.1);
+        let last = momentum.last().copied().unwrap_or(f64::NAN);
+        assert!(
+            (last - exact).abs() < 0.02 * exact,
+            "{load}: {last} in place of {exact}"
+        );
+    }
+}
+
 /// A block on a slope, turned so that the slope is level, its motion damped at the rate γ: with μ = 0.5 it stays where the slope is 0.4, and where it is 0.8 it slides at
 /// g (sin θ − μ cos θ) / γ, whatever the small speed from which friction is full and whether the barrier is explicit or implicit.
 #[test]

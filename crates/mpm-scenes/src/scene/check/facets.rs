@@ -1,8 +1,8 @@
 //! Conditions on named facets.
 
 use super::boundaries::{check_friction, check_presence};
-use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene, StressUpdateName};
-use crate::values::{not_negative, within};
+use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene, StressUpdateName, amplitude};
+use crate::values::within;
 use crate::{SceneFault, facet_traction, vector_field};
 
 impl Scene {
@@ -52,11 +52,12 @@ impl Scene {
             loaded && !by_pressure,
             condition,
         )?;
-        let (pressure, ramp) = (table.pressure.as_ref(), table.ramp.as_ref());
+        let (pressure, ramp, points) = (table.pressure.as_ref(), table.ramp.as_ref(), table.amplitude.as_ref());
         let condition = "condition = \"traction\"";
         check_presence(field("pressure"), pressure, loaded && by_pressure, condition)?;
         check_presence(field("ramp"), ramp, loaded && ramp.is_some(), condition)?;
-        not_negative(&field("ramp"), table.ramp.unwrap_or(0.0))?;
+        check_presence(field("amplitude"), points, loaded && points.is_some(), condition)?;
+        amplitude(field, table.ramp, points)?;
         facet_traction::build::<D>(field, table, self).map(drop)?;
         let late = !loaded || self.time.stress_update != StressUpdateName::First;
         let expected = "\"last\" or \"modified-last\" with a traction on facets";

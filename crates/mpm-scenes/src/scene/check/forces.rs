@@ -1,6 +1,6 @@
 //! Loads and the barrier.
 
-use crate::scene::{LoadTable, Scene};
+use crate::scene::{LoadTable, Scene, amplitude};
 use crate::values::{not_negative, positive, vector, within};
 use crate::{SceneFault, reference, shape};
 
@@ -18,7 +18,7 @@ impl Scene {
                 vector::<D>(&field(key), force)?;
                 shape::build::<D>(&field("region"), part.region)?;
                 self.check_body_name(field("body"), part.body)?;
-                not_negative(&field("ramp"), part.ramp)?;
+                amplitude(&field, part.ramp, part.amplitude)?;
             }
         }
         self.check_barrier::<D>()
