@@ -29,7 +29,7 @@ pub(crate) fn build<const D: usize>(
         return Ok(Box::new(move |x, _| traction.at(x)));
     }
     let pressure = pressure(&field("pressure"), table.pressure.as_ref(), scene)?;
-    Ok(Box::new(move |x, normal| normal.map(|c| -pressure(x) * c)))
+    Ok(Box::new(move |x, normal| algebra::scale(normal, -pressure(x))))
 }
 
 /// p at a point.
