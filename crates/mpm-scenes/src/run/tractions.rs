@@ -174,39 +174,48 @@ mod tests {
     use super::super::virtual_stress::tests::under;
     use super::*;
 
-    /// Forces are those of the tractions, first moments with them, also where these are linear along facets: with ∫ σ̂ ∇w_i dV, of which Σ_i ∇w_i = 0 and Σ_i x_i ∇w_iᵀ = I leave ∫ σ̂ dV,
-    /// Σ f = ∮ t dA and Σ f xᵀ = ∮ t xᵀ dA.
+    /// Σ f and Σ f xᵀ of the forces at nodes, those of ∫ σ̂ ∇w_i dV with them: Σ_i ∇w_i = 0 and Σ_i x_i ∇w_iᵀ = I leave ∫ σ̂ dV.
+    fn force_and_moment(
+        basis: &MeshBasis<2>,
+        (inner, whole): (&SimplexMesh<2>, &SimplexMesh<2>),
+        facets: &[LoadedFacet<2>],
+    ) -> ([f64; 2], Matrix<2>) {
+        let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
+        for (x, f) in node_forces(basis, (inner, whole), facets, Amplitude::default()).forces {
+            algebra::accumulate(&mut force, 1.0, &f);
+            moment += Matrix::outer(&f, &x);
+        }
+        let stresses = virtual_stresses(whole, facets);
+        for (number, vertices) in inner.cells().enumerate() {
+            for &vertex in vertices {
+                moment += stresses[vertex as usize] * (inner.volume(number) / 3.0);
+            }
+        }
+        (force, moment)
+    }
+
+    /// Σ f = ∮ t dA and Σ f xᵀ = ∮ t xᵀ dA, also where t is linear along facets.
     #[test]
     #[allow(non_snake_case)]
     fn linear_tractions_have_their_force_and_moments() {
         let (inner, whole, _) = with_rim();
         let basis = MeshBasis::new(&whole).expect("a basis");
         let L = Matrix([[0.3, -1.1], [2.0, 0.4]]);
+        let position = |vertex: u32| inner.vertices()[vertex as usize];
         let at = |facet: &BoundaryFacet<2>| {
             facet
                 .vertices
-                .map(|vertex| algebra::add_scaled(&L.apply(&inner.vertices()[vertex as usize]), 0.7, &facet.normal))
+                .map(|vertex| algebra::add_scaled(&L.apply(&position(vertex)), 0.7, &facet.normal))
         };
         let loaded = |facet| LoadedFacet {
             tractions: at(&facet),
             facet,
         };
         let facets: Vec<_> = inner.boundary().into_iter().map(loaded).collect();
-        let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
-        let forces = node_forces(&basis, (&inner, &whole), &facets, Amplitude::default()).forces;
-        for (x, f) in forces {
-            algebra::accumulate(&mut force, 1.0, &f);
-            moment += Matrix::outer(&f, &x);
-        }
-        let stresses = virtual_stresses(&whole, &facets);
-        for (number, vertices) in inner.cells().enumerate() {
-            for &vertex in vertices {
-                moment += stresses[vertex as usize] * (inner.volume(number) / 3.0);
-            }
-        }
+        let (mut force, mut moment) = force_and_moment(&basis, (&inner, &whole), &facets);
         // Simpson's rule.
         for LoadedFacet { facet, tractions } in &facets {
-            let [a, b] = facet.vertices.map(|vertex| inner.vertices()[vertex as usize]);
+            let [a, b] = facet.vertices.map(position);
             let middle = |a: &[f64; 2], b: &[f64; 2]| algebra::scale(&algebra::add_scaled(a, 1.0, b), 0.5);
             let places = [(a, tractions[0], 1.0), (b, tractions[1], 1.0)];
             let half = (middle(&a, &b), middle(&tractions[0], &tractions[1]), 4.0);
@@ -219,7 +228,7 @@ mod tests {
         assert!(moment.maximum_norm() < 1e-12, "{moment:?}");
     }
 
-    /// Patch test: under t = σ n on the whole boundary, forces and their first moments, those of ∫ σ̂ ∇w_i dV with them, are those of a constant stress, Σ f = 0 and Σ f xᵀ = V σ.
+    /// Patch test: under t = σ n on the whole boundary, forces and their first moments are those of a constant stress, Σ f = 0 and Σ f xᵀ = V σ.
     #[test]
     #[allow(non_snake_case)]
     fn tractions_of_a_constant_stress_are_in_equilibrium() {
@@ -228,18 +237,7 @@ mod tests {
         let facets: Vec<_> = inner.boundary().into_iter().map(under(stress)).collect();
         for width in [KernelWidth::LongestEdge, KernelWidth::Local] {
             let basis = MeshBasis::new(&whole).expect("a basis").with_kernel_width(width);
-            let (mut force, mut moment) = ([0.0; 2], Matrix::ZERO);
-            for (x, f) in node_forces(&basis, (&inner, &whole), &facets, Amplitude::default()).forces {
-                algebra::accumulate(&mut force, 1.0, &f);
-                moment += Matrix::outer(&f, &x);
-            }
-            // Σ_i ∇w_i = 0 and Σ_i x_i ∇w_iᵀ = I.
-            let stresses = virtual_stresses(&whole, &facets);
-            for (number, vertices) in inner.cells().enumerate() {
-                for &vertex in vertices {
-                    moment += stresses[vertex as usize] * (inner.volume(number) / 3.0);
-                }
-            }
+            let (force, moment) = force_and_moment(&basis, (&inner, &whole), &facets);
             let V = inner.total_volume();
             assert!(algebra::norm(&force) < 1e-12, "{force:?}");
             assert!((moment - stress * V).maximum_norm() < 1e-12, "{moment:?}");

@@ -8,15 +8,14 @@ mod caution;
 mod check;
 mod discretisation;
 mod facets;
+mod field;
 mod load;
 mod material;
 mod mesh;
 mod output;
-mod pressure;
 mod read;
 mod region;
 mod time;
-mod vector_field;
 mod volume_averaging;
 
 use std::collections::BTreeMap;
@@ -35,17 +34,16 @@ pub(crate) use check::MOST_STEPS;
 pub use discretisation::{BasisName, Discretisation, DomainTable, GridTable, MomentsName, TransferKind, TransferTable};
 pub(crate) use facets::ON_MESH;
 pub use facets::{FacetCondition, FacetTable};
+pub use field::{Placed, PressureField, PressureTable, VectorField, VectorTable};
 pub use load::LoadTable;
 pub use material::{FluidTable, GasTable, MaterialTable, MetalTable, SandTable, SnowTable, SolidTable};
 pub use mesh::{
     DelaunayTable, GradientName, KernelName, MeshShapeTable, MeshTable, RefinementTable, RotationTable, WidthName,
 };
 pub use output::{OutputTable, ProbeTable, ValidationTable};
-pub use pressure::{PressureField, PressureTable};
 pub(crate) use read::text_of;
 pub use region::ShapeTable;
 pub use time::{StressUpdateName, TimeTable};
-pub use vector_field::{VectorField, VectorTable};
 
 /// A scene: the bodies, what holds and pulls them, how the motion is computed and what is written of it.
 ///

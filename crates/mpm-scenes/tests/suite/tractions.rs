@@ -153,26 +153,35 @@ fn run(text: &str) -> [Snapshot; 2] {
     }
 }
 
+/// The block with other loads and another length.
+fn loaded(facets: &str, time: &str) -> String {
+    let boundary = "{ group = \"boundary\", condition = \"traction\", pressure = 20.0, ramp = 2.0 }";
+    assert!(PRESSED.contains(boundary) && PRESSED.contains("end = 3.0"));
+    PRESSED
+        .replace(boundary, facets)
+        .replace("end = 3.0", time)
+        .replace("interval = 3.0", "interval = 1.0")
+}
+
 /// A free beam in plane strain between couples, t = ± m y along x.
-const BENT: &str = r#"
-title = "a beam is bent"
-dimension = 2
-transfer = { kind = "apic" }
-time = { end = 1.0, damping = 20.0 }
-materials.rubber = { law = "neo-hookean", density = 1.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
-facets = [
-    { group = "x-lower", condition = "traction", traction = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.0, -20.0], [0.0, 0.0]] }, ramp = 0.5 },
-    { group = "x-upper", condition = "traction", traction = { kind = "linear", centre = [0.0, 0.0], gradient = [[0.0, 20.0], [0.0, 0.0]] }, ramp = 0.5 },
-]
-output = { interval = 1.0 }
-mesh = { generate = { kind = "rectangle", lower = [-1.0, -0.25], upper = [1.0, 0.25], size = 0.1 }, kernel = "smooth", gradient = "exact", width = "local" }
-bodies = [{ name = "beam", material = "rubber", fill = "cells", particles_per_axis = 1, shape = { kind = "box", lower = [-1.0, -0.25], upper = [1.0, 0.25] } }]
-"#;
+fn bent() -> String {
+    let end = |group: &str, rate: f64| {
+        let field = format!("{{ kind = \"linear\", centre = [0.0, 0.0], gradient = [[0.0, {rate:?}], [0.0, 0.0]] }}");
+        format!("{{ group = {group:?}, condition = \"traction\", traction = {field}, ramp = 0.5 }}")
+    };
+    let ends = format!("{}, {}", end("x-lower", -20.0), end("x-upper", 20.0));
+    let exact = "kernel = \"smooth\"\ngradient = \"exact\"\nwidth = \"local\"";
+    loaded(&ends, "end = 1.0, damping = 20.0")
+        .replace("0.5]", "0.25]")
+        .replace("size = 0.2", "size = 0.1")
+        .replace("KERNEL", exact)
+        .replace("FILL", "fill = \"cells\"\nparticles_per_axis = 1")
+}
 
 /// σ_xx = m y, and the axis bends by κ = m (1 − ν²) / E: u_y = −κ x² / 2 + what is rigid.
 #[test]
 fn a_beam_between_couples_bends() {
-    let [start, end] = run(BENT);
+    let [start, end] = run(&bent());
     let (mut error, mut scale) = (0.0, 0.0);
     for (at, stress) in start.positions.chunks(2).zip(end.stresses.chunks(4)) {
         error += (stress[0] - 20.0 * at[1]).powi(2);
@@ -191,26 +200,21 @@ fn a_beam_between_couples_bends() {
     assert!(stress < 0.04 && curvature.abs() < 0.01, "{stress}, {curvature}");
 }
 
-/// A block in a fluid of its own density.
-const AFLOAT: &str = r#"
-title = "a block floats"
-dimension = 2
-gravity = [0.0, -10.0]
-gravity_ramp = 0.5
-transfer = { kind = "apic" }
-time = { end = 0.7 }
-materials.rubber = { law = "neo-hookean", density = 2.0, young_modulus = 1000.0, poisson_ratio = 0.3 }
-facets = [{ group = "boundary", condition = "traction", pressure = { kind = "hydrostatic", density = 2.0, surface = [0.0, 1.0] }, ramp = 0.5 }]
-output = { interval = 0.7 }
-mesh = { generate = { kind = "rectangle", lower = [-1.0, -0.5], upper = [1.0, 0.5], size = 0.2 } }
-bodies = [{ name = "block", material = "rubber", shape = { kind = "box", lower = [-1.0, -0.5], upper = [1.0, 0.5] } }]
-"#;
-
 /// It stays where it is, under the pressure of the fluid.
 #[test]
 fn a_block_in_a_fluid_of_its_density_floats() {
     let centre = |snapshot: &Snapshot| snapshot.positions.chunks(2).map(|x| x[1]).sum::<f64>() / snapshot.len() as f64;
-    let [start, end] = run(AFLOAT);
+    let water = "{ kind = \"hydrostatic\", density = 2.0, surface = [0.0, 1.0] }";
+    let facets = format!("{{ group = \"boundary\", condition = \"traction\", pressure = {water}, ramp = 0.5 }}");
+    let text = loaded(&facets, "end = 1.0")
+        .replace("density = 1.0", "density = 2.0")
+        .replace(
+            "dimension = 2",
+            "dimension = 2\ngravity = [0.0, -10.0]\ngravity_ramp = 0.5",
+        )
+        .replace("KERNEL", "")
+        .replace("FILL", "particles_per_axis = 2");
+    let [start, end] = run(&text);
     let rise = centre(&end) - centre(&start);
     let places = start.positions.chunks(2).zip(end.stresses.chunks(4));
     let worst = places.fold(0.0, |worst: f64, (at, stress)| {
