@@ -16,12 +16,12 @@ pub struct FacetTable {
     pub velocity: Option<VectorTable>,
     /// Coefficient of friction μ; with `condition = "friction"` only.
     pub friction: Option<f64>,
+    /// Times and the shares of a traction then, linear between them; instead of `ramp`.
+    pub amplitude: Option<Vec<[f64; 2]>>,
     /// t, a force per area of the mesh's facets, a vector or a field; with `condition = "traction"` only.
     ///
     /// Taken at the vertices of the facets, and linear between them, as `pressure` is.
     pub traction: Option<VectorTable>,
-    /// Instead of `ramp`: times and the shares of a traction then, linear between them.
-    pub amplitude: Option<Vec<[f64; 2]>>,
     /// Instead of `traction`: p in t = −p n, n being the outward normal of a facet; a number or a field.
     pub pressure: Option<PressureTable>,
     /// Time over which a traction grows. Default 0.
