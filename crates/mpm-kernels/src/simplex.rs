@@ -1,6 +1,6 @@
 //! The simplex lattice: D + 1 nodes per particle, whatever the dimension.
 
-use mpm_tensor::Matrix;
+use mpm_tensor::{Matrix, vector};
 
 use crate::Deposit;
 use crate::Entry;
@@ -29,14 +29,14 @@ pub struct SimplexGeometry<const D: usize> {
 }
 
 impl<const D: usize> SimplexGeometry<D> {
-    /// Kuhn's triangulation of the cubes themselves: T = I.
+    /// Kuhn's triangulation of the cubes themselves: T = I. Origin and spacing are those of [`place`](Self::place).
     pub fn kuhn(origin: [f64; D], spacing: f64) -> Self {
         Self::with_inverse(Matrix::IDENTITY, Matrix::IDENTITY, origin, spacing)
     }
 
     /// The lattice A_D*, whose simplices are as round as possible: T = c (I + b 1 1ᵀ) with b = (√(D+1) − 1) / D and
     /// c = (D + 1)^{−1/(2D)}. Its edges have the Gram matrix (D+1)^{1/D} (I − 1 1ᵀ / (D+1)) h², so that a cell has the volume
-    /// hᴰ (docs/theory.md, Eq. 21; Conway & Sloane, Sphere Packings, Lattices and Groups).
+    /// hᴰ (docs/theory.md, Eq. 21; Conway & Sloane, Sphere Packings, Lattices and Groups). Origin and spacing are those of [`place`](Self::place).
     pub fn permutohedral(origin: [f64; D], spacing: f64) -> Self {
         let d = D as f64;
         let root = (d + 1.0).sqrt();
@@ -46,8 +46,12 @@ impl<const D: usize> SimplexGeometry<D> {
         Self::with_inverse(frame((root - 1.0) / d, scale), inverse, origin, spacing)
     }
 
-    /// Any frame T; `None` where it has no finite inverse.
+    /// Any frame T; `None` where it has no finite inverse, the spacing is not positive or it or the origin is not finite.
     pub fn new(frame: Matrix<D>, origin: [f64; D], spacing: f64) -> Option<Self> {
+        let placed = spacing > 0.0 && spacing.is_finite() && vector::is_finite(&origin);
+        if !placed {
+            return None;
+        }
         let inverse = frame.inverse().filter(Matrix::is_finite)?;
         Some(Self::with_inverse(frame, inverse, origin, spacing))
     }
@@ -71,7 +75,8 @@ impl<const D: usize> SimplexGeometry<D> {
         geometry
     }
 
-    /// Move the lattice: a node at `origin`, spacing h, which should be positive and finite.
+    /// Move the lattice: a node at `origin`, spacing h. The origin should be finite and h positive and finite, which is not looked at here: nodes and weights are without
+    /// meaning otherwise. [`new`](Self::new) and the lattices of `mpm-core` refuse such places.
     pub fn place(&mut self, origin: [f64; D], spacing: f64) {
         (self.origin, self.spacing) = (origin, spacing);
         for a in 0..D {

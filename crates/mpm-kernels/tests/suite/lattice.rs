@@ -84,6 +84,21 @@ fn a_singular_frame_gives_no_lattice() {
 }
 
 #[test]
+fn a_place_that_is_none_gives_no_lattice() {
+    for (origin, spacing) in [
+        ([f64::NAN, 0.0], 1.0),
+        ([0.0, f64::INFINITY], 1.0),
+        ([0.0; 2], 0.0),
+        ([0.0; 2], -1.0),
+        ([0.0; 2], f64::NAN),
+        ([0.0; 2], f64::INFINITY),
+    ] {
+        let lattice = SimplexGeometry::new(Matrix::IDENTITY, origin, spacing);
+        assert!(lattice.is_none(), "{origin:?}, {spacing}");
+    }
+}
+
+#[test]
 fn cells_of_the_permutohedral_lattice_have_the_volume_of_cubes() {
     fn volume<const D: usize>() -> f64 {
         let lattice = SimplexGeometry::<D>::permutohedral([0.0; D], 0.5);
