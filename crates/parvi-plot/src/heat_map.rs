@@ -40,7 +40,7 @@ pub struct CellAxis {
 }
 
 impl CellAxis {
-    /// So many cells of equal factors between two positive ends.
+    /// So many cells of equal factors between two positive ends, as [`logarithmic_edges`] has them.
     pub fn logarithmic(label: impl Into<String>, ends: [f64; 2], cells: usize) -> Self {
         Self {
             axis: Axis::logarithmic(label),
@@ -111,8 +111,12 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// The edges of so many cells of equal factors between two positive ends.
+/// The edges of so many cells of equal factors between two ends. None without cells, nor where the ends are not positive, finite and growing.
 pub fn logarithmic_edges([least, most]: [f64; 2], cells: usize) -> Vec<f64> {
+    let divided = cells > 0 && least > 0.0 && least < most && most.is_finite();
+    if !divided {
+        return Vec::new();
+    }
     let edge = |edge: usize| least * (most / least).powf(edge as f64 / cells as f64);
     (0..=cells).map(edge).collect()
 }

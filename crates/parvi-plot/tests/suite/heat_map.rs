@@ -13,3 +13,17 @@ fn cells_cover_the_range() {
     assert_eq!(cell_of(&edges, f64::NAN), None);
     assert_eq!(cell_of(&[], 1.0), None);
 }
+
+#[test]
+fn what_is_no_range_has_no_cells() {
+    for (ends, cells) in [
+        ([1.0, 10.0], 0),
+        ([0.0, 10.0], 2),
+        ([-1.0, 10.0], 2),
+        ([1.0, f64::NAN], 2),
+        ([1.0, f64::INFINITY], 2),
+        ([10.0, 1.0], 2),
+    ] {
+        assert_eq!(logarithmic_edges(ends, cells), [0.0; 0], "{ends:?}, {cells}");
+    }
+}
