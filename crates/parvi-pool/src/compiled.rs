@@ -66,7 +66,8 @@ pub fn explore<const D: usize>(
 /// bisected boxes, so that every part of space gets its share of the particles. Empty where nothing has weight. `offset` in [0, 1) shifts
 /// that resample.
 ///
-/// Of n points distances below 1/n, in standard deviations, hardly count as smaller: there are to be many more points than particles.
+/// Of n points distances below 1/n, in standard deviations, hardly count as smaller: there are to be many more points than particles. A coordinate that
+/// all points have alike is the particles', too; from any other line or plane that holds all points they may lie 1/n off.
 pub fn condense<const D: usize>(measure: &Measure<D>, count: usize, offset: f64) -> Vec<[f64; D]> {
     (Compiled::of().condense)(measure, count, offset)
 }

@@ -71,7 +71,27 @@ pub(crate) fn condense<const D: usize>(measure: &Measure<D>, count: usize, offse
             &iterate,
         );
     }
-    moving.iter().map(|z| frame.to_target(z)).collect()
+    let flat = flat_coordinates(measure);
+    let place = |z: &[f64; D]| {
+        let x = frame.to_target(z);
+        std::array::from_fn(|axis| flat[axis].unwrap_or(x[axis]))
+    };
+    moving.iter().map(place).collect()
+}
+
+/// The coordinates that all points with a weight have alike. Distances along them have no unit in which those below 1/n could be small.
+fn flat_coordinates<const D: usize>(measure: &Measure<D>) -> [Option<f64>; D] {
+    let first = sound(measure).next();
+    std::array::from_fn(|axis| {
+        let common = first?.0[axis];
+        sound(measure).all(|(y, _)| y[axis] == common).then_some(common)
+    })
+}
+
+/// The points with a weight.
+fn sound<const D: usize>(measure: &Measure<D>) -> impl Iterator<Item = (&[f64; D], &f64)> {
+    let all = measure.points.iter().zip(&measure.weights);
+    all.filter(|(y, c)| **c != 0.0 && c.is_finite() && vector::is_finite(y))
 }
 
 impl Pass {
@@ -142,9 +162,7 @@ fn iterate<const D: usize>(support: &SupportPoints<D>, iterations: usize, moving
 /// All points but the lightest, in the coordinates of a frame, with the frame.
 #[allow(clippy::type_complexity)]
 fn standardised<const D: usize>(measure: &Measure<D>) -> (Vec<([f64; D], f64)>, Frame<D>) {
-    let sound = |&(y, c): &(&[f64; D], &f64)| *c != 0.0 && c.is_finite() && vector::is_finite(y);
-    let all = measure.points.iter().zip(&measure.weights).filter(sound);
-    let mut kept: Vec<([f64; D], f64)> = all.map(|(y, c)| (*y, *c)).collect();
+    let mut kept: Vec<([f64; D], f64)> = sound(measure).map(|(y, c)| (*y, *c)).collect();
     let mut sizes: Vec<f64> = kept.iter().map(|(_, c)| c.abs()).collect();
     sizes.sort_unstable_by(f64::total_cmp);
     let total: f64 = sizes.iter().sum();
@@ -193,6 +211,19 @@ mod tests {
         let particles = condense(&Measure::new(points.clone(), weights), 40, 0.5);
         assert_eq!(particles.iter().filter(|x| x[0] > 5.0).count(), 30);
         assert!(condense(&Measure::new(points, vec![0.0; 100]), 40, 0.5).is_empty());
+    }
+
+    #[test]
+    fn particles_of_a_flat_sample_lie_in_it() {
+        let equal = Measure::new(vec![[1.0, 1.0]; 5], vec![0.2; 5]);
+        assert_eq!(condense(&equal, 3, 0.5), [[1.0, 1.0]; 3]);
+        let line = (0..100).map(|i| [f64::from(i), 0.1]).collect();
+        let particles = condense(&Measure::new(line, vec![0.01; 100]), 10, 0.5);
+        assert!(particles.iter().all(|x| x[1] == 0.1), "{particles:?}");
+        assert!(
+            particles.windows(2).any(|pair| (pair[0][0] - pair[1][0]).abs() > 1.0),
+            "{particles:?}"
+        );
     }
 
     #[test]
