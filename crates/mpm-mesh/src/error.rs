@@ -7,6 +7,15 @@ pub enum MeshError {
         /// D.
         dimension: usize,
     },
+    /// A number is outside its range.
+    InvalidParameter {
+        /// The parameter.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What it should be.
+        requirement: &'static str,
+    },
     /// There are no vertices or no cells.
     Empty {
         /// `vertices` or `cells`.
@@ -128,6 +137,11 @@ impl MeshError {
         };
         match self {
             Self::UnsupportedDimension { dimension } => format!("meshes have dimension 1, 2 or 3, not {dimension}"),
+            Self::InvalidParameter {
+                name,
+                value,
+                requirement,
+            } => format!("{name} is {value}, it should be {requirement}"),
             Self::Empty { what } => format!("the mesh has no {what}"),
             Self::TooLarge { what, count } => format!("{count} {what} are more than a mesh can number"),
             Self::RaggedCells { count, per_cell } => {

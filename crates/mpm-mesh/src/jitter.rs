@@ -9,22 +9,45 @@ const SMALLEST_SHARE: f64 = 0.2;
 /// Halvings of a move that is too long, before the vertex stays where it is.
 const HALVINGS: u32 = 4;
 
+/// A random number, if it is one in [0, 1).
+fn uniform(value: f64) -> Result<f64, MeshError> {
+    if (0.0..1.0).contains(&value) {
+        return Ok(value);
+    }
+    Err(MeshError::InvalidParameter {
+        name: "random number",
+        value,
+        requirement: "at least 0 and below 1",
+    })
+}
+
 impl<const D: usize> SimplexMesh<D> {
     /// The same cells, every vertex that is not on the boundary moved part of the way to a random point of a random one of its cells.
     ///
     /// `random` gives numbers in [0, 1). A vertex goes up to `amplitude` ∈ [0, 1] of the way, as far as no cell shrinks below a fifth of its volume.
     ///
     /// # Errors
-    /// [`MeshError`] where the moved mesh is refused, which volumes above zero exclude up to rounding.
+    /// [`MeshError::InvalidParameter`] for an amplitude outside [0, 1] or a random number outside [0, 1); other ones where the moved mesh is refused, which
+    /// volumes above zero exclude up to rounding.
     pub fn jittered(&self, amplitude: f64, mut random: impl FnMut() -> f64) -> Result<Self, MeshError> {
+        if !(0.0..=1.0).contains(&amplitude) {
+            return Err(MeshError::InvalidParameter {
+                name: "amplitude",
+                value: amplitude,
+                requirement: "from 0 to 1",
+            });
+        }
+        let mut draw = || uniform(random());
         let mut vertices = self.vertices().to_vec();
         let cells: Vec<u32> = self.cells().flatten().copied().collect();
         let (at_boundary, around) = (self.on_boundary(), self.vertex_cells());
         for vertex in (0..vertices.len()).filter(|&vertex| !at_boundary[vertex]) {
             let near = around.get(vertex);
-            let cell = near[((random() * near.len() as f64) as usize).min(near.len() - 1)];
+            let cell = near[((draw()? * near.len() as f64) as usize).min(near.len() - 1)];
             let mut weights = vec![0.0; D + 1];
-            weights.fill_with(|| -(1.0 - random()).ln());
+            for weight in &mut weights {
+                *weight = -(1.0 - draw()?).ln();
+            }
             let total: f64 = weights.iter().sum();
             let start = vertices[vertex];
             let goal: [f64; D] = std::array::from_fn(|a| {

@@ -52,6 +52,28 @@ fn numbers_out_of_range() {
 }
 
 #[test]
+fn moves_out_of_range() {
+    let mesh = generate::rectangle([0.0; 2], [1.0; 2], &TARGET).expect("a mesh");
+    for (amplitude, number, expected) in [
+        (f64::NAN, 0.5, "amplitude"),
+        (-0.1, 0.5, "amplitude"),
+        (1.1, 0.5, "amplitude"),
+        (1.0, f64::NAN, "random number"),
+        (1.0, 1.0, "random number"),
+        (1.0, -0.1, "random number"),
+    ] {
+        let result = mesh.jittered(amplitude, || number);
+        assert!(
+            matches!(result, Err(MeshError::InvalidParameter { name, .. }) if name == expected),
+            "{amplitude}, {number}: {:?}",
+            result.map(|mesh| mesh.cell_count())
+        );
+    }
+    let error = mesh.jittered(f64::NAN, || 0.5).expect_err("no amplitude");
+    assert_eq!(error.to_string(), "amplitude is NaN, it should be from 0 to 1");
+}
+
+#[test]
 fn more_cells_than_are_sensible() {
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let fine = EdgeTarget {
