@@ -133,13 +133,14 @@ pub struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Stripes of a height.
+    /// Stripes of a height, or of a larger one that makes no more of them than there are segments.
     pub fn new(segments: &'a [[[f64; 2]; 2]], height: f64) -> Self {
         let ys = || segments.iter().flatten().map(|end| end[1]);
         let (lower, upper) = (
             ys().fold(f64::INFINITY, f64::min),
             ys().fold(f64::NEG_INFINITY, f64::max),
         );
+        let height = height.max((upper - lower) / segments.len() as f64);
         let stripe = |y: f64| ((y - lower) / height) as usize;
         let pairs: Vec<(usize, u32)> = (0u32..)
             .zip(segments)
@@ -178,4 +179,27 @@ pub fn encloses(segments: &[[[f64; 2]; 2]], point: &[f64; 2]) -> bool {
 fn crosses([a, b]: &[[f64; 2]; 2], point: &[f64; 2]) -> bool {
     let share = (point[1] - a[1]) / (b[1] - a[1]);
     (a[1] <= point[1]) != (b[1] <= point[1]) && a[0] + share * (b[0] - a[0]) > point[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A height far below that of the segments makes no more stripes than there are of these, and the answers of all segments.
+    #[test]
+    fn stripes_are_no_more_than_segments() {
+        let corner = |k: u32| {
+            let (sine, cosine) = (0.37 + f64::from(k) * std::f64::consts::TAU / 40.0).sin_cos();
+            let radius = 1.0 + f64::from(k % 2);
+            [radius * cosine, radius * sine]
+        };
+        let segments: Vec<_> = (0..40).map(|k| [corner(k), corner(k + 1)]).collect();
+        let rows = Rows::new(&segments, 1e-5);
+        assert!(rows.stripes.len() <= 41, "{}", rows.stripes.len());
+        let points = (0..50 * 50).map(|k| [f64::from(k % 50), f64::from(k / 50)].map(|c| 0.1 * c - 2.45));
+        let corners = segments.iter().map(|segment| segment[0]);
+        for point in points.chain(corners) {
+            assert_eq!(rows.encloses(&point), encloses(&segments, &point), "{point:?}");
+        }
+    }
 }
