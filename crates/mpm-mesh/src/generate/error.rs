@@ -76,6 +76,30 @@ impl GenerationError {
         })
     }
 
+    /// Errs unless an angle is finite.
+    pub(super) fn check_angle(angle: f64) -> Result<(), Self> {
+        if angle.is_finite() {
+            return Ok(());
+        }
+        Err(Self::InvalidParameter {
+            name: "angle",
+            value: angle,
+            requirement: "finite",
+        })
+    }
+
+    /// A random number, if it is one in [0, 1).
+    pub(super) fn check_random(value: f64) -> Result<f64, Self> {
+        if (0.0..1.0).contains(&value) {
+            return Ok(value);
+        }
+        Err(Self::InvalidParameter {
+            name: "random number",
+            value,
+            requirement: "at least 0 and below 1",
+        })
+    }
+
     /// Errs if a mesh would have more than 10⁸ cells.
     pub(super) fn check_count(length: f64, cells: f64) -> Result<(), Self> {
         let limit = 1e8;

@@ -58,13 +58,7 @@ pub fn check_outlines(outlines: &[Vec<[f64; 2]>]) -> Result<(), GenerationError>
 /// [`GenerationError`], if the outlines bound no domain or the target is not positive.
 pub fn outlines(outlines: &[Vec<[f64; 2]>], target: &EdgeTarget) -> Result<SimplexMesh<2>, GenerationError> {
     GenerationError::check_positive("length", target.length)?;
-    if !target.angle.is_finite() {
-        return Err(GenerationError::InvalidParameter {
-            name: "angle",
-            value: target.angle,
-            requirement: "finite",
-        });
-    }
+    GenerationError::check_angle(target.angle)?;
     let outline = Outline::new(outlines, target.length)?;
     if outline.points.is_empty() {
         return Err(MeshError::Empty { what: "vertices" }.into());

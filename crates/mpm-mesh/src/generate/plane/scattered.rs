@@ -40,13 +40,15 @@ pub struct Scatter {
 /// them. On the domains of the tests edges are 0.4 to 1.75 h long, within 6 % of h on average, and no angle is below 22°.
 ///
 /// # Errors
-/// [`GenerationError`], if the outlines bound no domain.
+/// [`GenerationError`], if the outlines bound no domain, the angle is not finite or a random number is outside [0, 1); [`GenerationError::TooFine`] also where the
+/// least length is below 1e-8 of an edge of the polygons. The time to divide an edge is in proportion to their ratio.
 pub fn scattered(
     outlines: &[Vec<[f64; 2]>],
     size: &SizeField,
     scatter: Scatter,
     random: &mut dyn FnMut() -> f64,
 ) -> Result<SimplexMesh<2>, GenerationError> {
+    GenerationError::check_angle(scatter.angle)?;
     let corners = Outline::undivided(outlines)?;
     if corners.points.is_empty() {
         return Err(MeshError::Empty { what: "vertices" }.into());
@@ -56,7 +58,7 @@ pub fn scattered(
     GenerationError::check_count(size.least(), cells)?;
     let outline = Outline::graded(outlines, size)?;
     let mut points = outline.points.clone();
-    strew(&mut points, &outline, size, scatter.angle, random);
+    strew(&mut points, &outline, size, scatter.angle, random)?;
     for _ in 0..scatter.sweeps {
         smooth(&mut points, &outline, |x| size.at(x))?;
     }
@@ -65,7 +67,14 @@ pub fn scattered(
 }
 
 /// Appends points inside the outline to those of it.
-fn strew(points: &mut Vec<[f64; 2]>, outline: &Outline, size: &SizeField, angle: f64, random: &mut dyn FnMut() -> f64) {
+fn strew(
+    points: &mut Vec<[f64; 2]>,
+    outline: &Outline,
+    size: &SizeField,
+    angle: f64,
+    random: &mut dyn FnMut() -> f64,
+) -> Result<(), GenerationError> {
+    let mut draw = || GenerationError::check_random(random());
     let segments: Vec<_> = outline.segments().collect();
     let (near, rows) = (
         NearSegments::new(&segments, size.base()),
@@ -75,18 +84,22 @@ fn strew(points: &mut Vec<[f64; 2]>, outline: &Outline, size: &SizeField, angle:
     let mut open: Vec<u32> = (0..points.len() as u32).collect();
     open.iter().for_each(|&number| tree.insert(number, points));
     while !open.is_empty() {
-        let place = ((random() * open.len() as f64) as usize).min(open.len() - 1);
+        let place = ((draw()? * open.len() as f64) as usize).min(open.len() - 1);
         let centre = points[open[place] as usize];
         let reach = DISTANCE * size.at(&centre);
-        let candidate = (0..CANDIDATES).find_map(|_| {
-            let (sine, cosine) = (angle + TAU * random()).sin_cos();
-            let point = add_scaled(&centre, reach * (1.0 + random()), &[cosine, sine]);
+        let mut candidate = None;
+        for _ in 0..CANDIDATES {
+            let (sine, cosine) = (angle + TAU * draw()?).sin_cos();
+            let point = add_scaled(&centre, reach * (1.0 + draw()?), &[cosine, sine]);
             let here = size.at(&point);
             let free = rows.encloses(&point)
                 && !near.is_near(&point, FROM_BOUNDARY * here)
                 && !tree.any_within(&point, DISTANCE * here, points);
-            free.then_some(point)
-        });
+            if free {
+                candidate = Some(point);
+                break;
+            }
+        }
         match candidate {
             None => {
                 open.swap_remove(place);
@@ -99,4 +112,5 @@ fn strew(points: &mut Vec<[f64; 2]>, outline: &Outline, size: &SizeField, angle:
             }
         }
     }
+    Ok(())
 }

@@ -158,3 +158,23 @@ fn a_seed_is_a_mesh() {
     assert_eq!(of(1), of(1));
     assert_ne!(of(1), of(2));
 }
+
+#[test]
+fn angles_and_random_numbers_that_are_none_are_refused() {
+    let size = SizeField::new(0.2, vec![]).unwrap();
+    for (angle, number, name) in [
+        (f64::NAN, 0.5, "angle"),
+        (f64::INFINITY, 0.5, "angle"),
+        (0.0, f64::NAN, "random number"),
+        (0.0, 1.0, "random number"),
+        (0.0, -0.1, "random number"),
+    ] {
+        let scatter = Scatter { sweeps: 0, angle };
+        let result = scattered(&domains()[0], &size, scatter, &mut || number);
+        assert!(
+            matches!(result, Err(GenerationError::InvalidParameter { name: found, .. }) if found == name),
+            "{angle}, {number}: {:?}",
+            result.map(|mesh| mesh.cell_count())
+        );
+    }
+}
