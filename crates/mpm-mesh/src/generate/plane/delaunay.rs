@@ -1,6 +1,7 @@
 //! Constrained Delaunay triangulation.
 
-use spade::handles::{FixedFaceHandle, PossiblyOuterTag};
+use mpm_tensor::vector::{add_scaled, dot, subtract};
+use spade::handles::{FixedFaceHandle, FixedVertexHandle, PossiblyOuterTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, Triangulation as _, validate_coordinate};
 
 use crate::generate::GenerationError;
@@ -30,13 +31,16 @@ impl Triangulation {
         let crossing = |position| GenerationError::CrossingOutlines { position };
         let mut conflict = None;
         let vertices = points.iter().map(|&[x, y]| Point2::new(clean(x), clean(y))).collect();
-        let cdt = Cdt::try_bulk_load_cdt(vertices, edges.to_vec(), |edge| conflict = Some(edge[0]));
+        let cdt = Cdt::try_bulk_load_cdt(vertices, edges.to_vec(), |edge| conflict = Some(edge));
         let cdt = cdt.map_err(|_| crossing(None))?;
-        if let Some(place) = conflict {
-            return Err(crossing(points.get(place).copied()));
-        }
-        if cdt.num_vertices() != points.len() || cdt.num_constraints() != edges.len() {
+        // With points that occur twice the library counts others.
+        if cdt.num_vertices() != points.len() {
             return Err(crossing(doubled(points)));
+        }
+        let missing = || edges.iter().copied().find(|&edge| !is_kept(&cdt, edge));
+        if conflict.is_some() || cdt.num_constraints() != edges.len() {
+            let met = conflict.or_else(missing);
+            return Err(crossing(met.and_then(|edge| meeting(points, edges, edge))));
         }
         Ok(Self::by_side(&cdt))
     }
@@ -88,6 +92,38 @@ fn clean(x: f64) -> f64 {
 
 fn valid(x: f64) -> Result<(), InsertionError> {
     validate_coordinate(clean(x))
+}
+
+/// Whether an edge is one of the triangulation.
+fn is_kept(cdt: &Cdt, edge: [usize; 2]) -> bool {
+    let [from, to] = edge.map(FixedVertexHandle::from_index);
+    cdt.get_edge_from_neighbors(from, to)
+        .is_some_and(|edge| edge.is_constraint_edge())
+}
+
+/// Where an edge meets a point on its way or crosses another edge: the first such place in the order of these.
+fn meeting(points: &[[f64; 2]], edges: &[[usize; 2]], edge: [usize; 2]) -> Option<[f64; 2]> {
+    let [a, b] = edge.map(|end| points[end]);
+    let along = subtract(&b, &a);
+    // The share of the way from a to b, if it is none of the ends.
+    let on_the_way = |share: f64| share > 0.0 && share < 1.0;
+    let crossed = |&[from, to]: &[usize; 2]| {
+        let (c, d) = (points[from], points[to]);
+        let (other, between) = (subtract(&d, &c), subtract(&c, &a));
+        let turn = cross(&along, &other);
+        let (share, of_other) = (cross(&between, &other) / turn, cross(&between, &along) / turn);
+        (on_the_way(share) && (0.0..=1.0).contains(&of_other)).then(|| add_scaled(&a, share, &along))
+    };
+    let touched = |x: &&[f64; 2]| {
+        let between = subtract(x, &a);
+        cross(&along, &between) == 0.0 && on_the_way(dot(&between, &along) / dot(&along, &along))
+    };
+    let crossing = edges.iter().find_map(crossed);
+    crossing.or_else(|| points.iter().find(touched).copied())
+}
+
+fn cross([ax, ay]: &[f64; 2], [bx, by]: &[f64; 2]) -> f64 {
+    ax * by - ay * bx
 }
 
 /// A point that occurs twice.

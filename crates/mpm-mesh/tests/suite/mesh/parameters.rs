@@ -2,6 +2,7 @@
 
 use mpm_mesh::MeshError;
 use mpm_mesh::generate::{self, EdgeTarget, GenerationError};
+use mpm_tensor::vector;
 
 const TARGET: EdgeTarget = EdgeTarget {
     length: 0.1,
@@ -102,6 +103,21 @@ fn polygons_that_bound_nothing() {
     assert!(crossing(generate::polygon(&repeated, &TARGET)));
     let pinched = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
     assert!(crossing(generate::polygon(&pinched, &TARGET)));
+    // A length at which every side stays whole, and one at which all are divided.
+    for length in [9.0, 0.13] {
+        for (corners, place) in [
+            (&bow[..], [0.5, 0.5]),
+            (&[[0.0, 0.0], [3.0, 3.0], [3.0, 0.0], [0.0, 1.0]], [0.75, 0.75]),
+            (&repeated, [1.0, 0.0]),
+            (&pinched, [1.0, 0.0]),
+        ] {
+            let error = generate::polygon(corners, &EdgeTarget { length, angle: 0.0 });
+            let Err(GenerationError::CrossingOutlines { position: Some(found) }) = error else {
+                panic!("{corners:?}: {error:?}");
+            };
+            assert!(vector::distance(&found, &place) < 1e-12, "{corners:?}: {found:?}");
+        }
+    }
     let lost = [[0.0, 0.0], [1.0, 0.0], [f64::NAN, 1.0]];
     let error = generate::polygon(&lost, &TARGET);
     assert!(matches!(
