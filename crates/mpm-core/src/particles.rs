@@ -337,6 +337,10 @@ impl<const D: usize, S: Copy + Send + Sync> Particles<D, S> {
     }
 
     /// Σ m_p (x_a v_b − x_b v_a + B_ba − B_ab) about the origin; the affine part where there is one (Jiang et al. 2015, §5.3.1).
+    ///
+    /// # Panics
+    ///
+    /// Where a or b is not below D and there are particles, as an index of an array does.
     pub fn angular_momentum(&self, (a, b): (usize, usize)) -> f64 {
         let each = self.positions.iter().zip(&self.velocities).enumerate();
         each.map(|(p, (x, v))| {

@@ -47,12 +47,20 @@ impl<const D: usize> SimplexPoint<D> {
     }
 
     /// The axis π(k+1) along which vertex k + 1 follows vertex k.
+    ///
+    /// # Panics
+    ///
+    /// Where k is not below D, as an index of an array does.
     #[inline(always)]
     pub fn axis(&self, k: usize) -> usize {
         (self.0[k].to_bits() & AXIS) as usize
     }
 
     /// 1 + f_π(k+1).
+    ///
+    /// # Panics
+    ///
+    /// Where k is not below D, as an index of an array does.
     #[inline(always)]
     pub fn level(&self, k: usize) -> f64 {
         self.0[k]

@@ -39,6 +39,10 @@ impl<const D: usize> UniformGrid<D> {
     }
 
     /// u_a = (x_a − origin_a) / h.
+    ///
+    /// # Panics
+    ///
+    /// Where the axis is not below D, as an index of an array does.
     #[inline(always)]
     pub fn coordinate(&self, x: &[f64; D], axis: usize) -> f64 {
         (x[axis] - self.origin[axis]) * self.inverse_spacing

@@ -27,6 +27,10 @@ impl<const D: usize> Frame<D> {
     }
 
     /// ∇λ_k for k = 0 … D: normal to the facet opposite vertex k, inward, of length one over the height above it.
+    ///
+    /// # Panics
+    ///
+    /// Where k is above D, as an index of an array does.
     pub fn gradient(&self, k: usize) -> [f64; D] {
         if k > 0 {
             return self.gradients.0[k - 1];
@@ -35,6 +39,10 @@ impl<const D: usize> Frame<D> {
     }
 
     /// λ_k(x) for k = 0 … D.
+    ///
+    /// # Panics
+    ///
+    /// Where k is above D, as an index of an array does.
     pub fn coordinate(&self, k: usize, x: &[f64; D]) -> f64 {
         let offset = subtract(x, &self.origin);
         if k > 0 {
