@@ -94,7 +94,7 @@ pub enum MpmError {
         particle_speed: f64,
     },
     /// A field of the particles has too many or too few entries, or is missing.
-    #[error("particle field {field} has {length} entries, not {expected}")]
+    #[error("particle field {field} has length {length}, not {expected}")]
     FieldLength {
         /// Name of the field.
         field: &'static str,

@@ -145,7 +145,7 @@ impl MeshError {
             Self::Empty { what } => format!("the mesh has no {what}"),
             Self::TooLarge { what, count } => format!("{count} {what} are more than a mesh can number"),
             Self::RaggedCells { count, per_cell } => {
-                format!("{count} vertex numbers do not divide into cells of {per_cell}")
+                format!("a list of length {count} does not divide into cells of {per_cell} vertices")
             }
             Self::UnknownVertex {
                 cell: number,

@@ -20,7 +20,7 @@ pub struct Field<'a> {
 #[non_exhaustive]
 pub enum VtuError {
     /// A field has more or fewer values than the mesh has places for.
-    #[error("field {name} has {found} values, {expected} are needed")]
+    #[error("field {name} has length {found}, it should be {expected}")]
     FieldLength {
         /// Name of the field.
         name: String,

@@ -18,7 +18,7 @@ pub enum MetricError {
         value: f64,
     },
     /// Two slices that must have one entry per point but do not.
-    #[error("{name} has {given} entries for {points} points")]
+    #[error("{name} has length {given}, the number of points is {points}")]
     LengthMismatch {
         /// The slice that does not fit.
         name: &'static str,

@@ -15,7 +15,7 @@ pub enum PlotError {
         what: String,
     },
     /// Two inputs that belong together differ in size.
-    #[error("{what}: expected {expected} entries, found {found}")]
+    #[error("{what}: expected length {expected}, found {found}")]
     Size {
         /// The input of the wrong size.
         what: String,

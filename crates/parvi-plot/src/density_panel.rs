@@ -246,11 +246,17 @@ pub(super) fn outside(columns: &[Vec<f64>], scales: &[Scale]) -> usize {
         .count()
 }
 
+/// How many of all particles are not seen.
+pub(super) fn outside_note(outside: usize, total: usize) -> String {
+    let lie = if outside == 1 { "lies" } else { "lie" };
+    format!("{outside} of {total} particles {lie} outside the axes.")
+}
+
 /// The notes about particles that a figure does not show.
 pub(super) fn cloud_notes(total: usize, outside: usize, thinned: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if outside > 0 {
-        notes.push(format!("{outside} of {total} particles lie outside the axes."));
+        notes.push(outside_note(outside, total));
     }
     let stride = total.div_ceil(MOST_POINTS);
     if thinned && stride > 1 {

@@ -1,7 +1,7 @@
 //! A cloud of particles in the plane at several moments, over the target's contours.
 
 use super::data::{CheckedReference, PlotError, PointCloud, Reference, coordinate_labels};
-use super::density_panel::{cloud_entries, cloud_notes, draw_cloud, outside, pair_density};
+use super::density_panel::{cloud_entries, cloud_notes, draw_cloud, outside, outside_note, pair_density};
 use super::legend::{draw_legend, noted, titled};
 use super::panel::{AxesParts, Panel, TITLE_ROOM, x_axis_room, x_ticks, y_tick_room, y_ticks};
 use super::scale::{AxisKind, Scale};
@@ -144,9 +144,7 @@ fn notes(plot: &StripPlot<'_>, clouds: &[Vec<Vec<f64>>], scales: &[Scale]) -> Ve
         .map(|(panel, cloud)| (outside(cloud, scales), panel.title, cloud[0].len()))
         .max_by_key(|(outside, ..)| *outside);
     let hidden = match most {
-        Some((count, title, all)) if count > 0 => {
-            Some(format!("{title}: {count} of {all} particles lie outside the axes."))
-        }
+        Some((count, title, all)) if count > 0 => Some(format!("{title}: {}", outside_note(count, all))),
         _ => None,
     };
     let largest = clouds.iter().map(|cloud| cloud[0].len()).max().unwrap_or(0);

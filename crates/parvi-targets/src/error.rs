@@ -169,7 +169,7 @@ pub enum TargetError {
         column: String,
     },
     /// A row has more or fewer cells than the header.
-    #[error("{file}, line {line}: {found} cells, but the header has {expected} columns")]
+    #[error("{file}, line {line}: the number of cells is {found}, that of columns in the header {expected}")]
     DataRaggedRow {
         /// The file.
         file: String,

@@ -13,7 +13,7 @@ pub enum PointSetError {
         field: &'static str,
     },
     /// There must be one score per position.
-    #[error("{scores} scores for {positions} positions")]
+    #[error("the number of scores is {scores}, that of positions {positions}")]
     LengthMismatch {
         /// Number of positions.
         positions: usize,

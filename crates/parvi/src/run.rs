@@ -239,7 +239,7 @@ pub enum SampleError {
         expected: &'static str,
     },
     /// A list of given particles does not fit their number.
-    #[error("{field}: {length} numbers are given, {particles} particles need {columns} each")]
+    #[error("{field}: the length is {length}, {particles} particles need {columns} each")]
     GivenLength {
         /// What is given.
         field: &'static str,

@@ -149,7 +149,7 @@ fn run_missing<S: Study>(
     let result = missing.into_iter().try_for_each(&mut run);
     progress.clear();
     let all = cases.len();
-    let hint = format!(": {kept} of {all} cases are kept; the same command resumes with the next one");
+    let hint = format!(": {kept} of {all} cases kept; the same command resumes with the next one");
     result.map_err(|error| match error.is_interruption() {
         true => CommandError::Interrupted(hint),
         false => error,

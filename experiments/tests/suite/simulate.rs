@@ -145,7 +145,7 @@ fn what_cannot_be_reported_is_named() {
     for (text, expected) in [
         (
             whole.replacen("\n0.05,", "\n0.05,1.0,", 1),
-            "series.csv, line 3: 22 values for 21 columns",
+            "series.csv, line 3: the number of values is 22, that of columns 21",
         ),
         (
             whole.replacen("\n0.05,", "\nx,", 1),

@@ -15,7 +15,7 @@ pub enum GenerationError {
         requirement: &'static str,
     },
     /// An outline has fewer than three corners.
-    #[error("outline {outline} has {corners} corners, it needs three")]
+    #[error("outline {outline} needs three corners and has {corners}")]
     TooFewCorners {
         /// The outline.
         outline: usize,

@@ -30,7 +30,7 @@ pub enum MshError {
         version: String,
     },
     /// The size of numbers in a binary file is not 8 bytes.
-    #[error("numbers of {size} bytes, only those of 8 are read")]
+    #[error("numbers of size {size}, only those of 8 bytes are read")]
     UnsupportedDataSize {
         /// As the file has it.
         size: u64,

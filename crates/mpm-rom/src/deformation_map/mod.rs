@@ -19,7 +19,7 @@ use crate::manifold::{Evaluation, Manifold, Wanted};
 #[non_exhaustive]
 pub enum DeformationMapError {
     /// The first guess of x̂₀ has another length than the manifold has coordinates.
-    #[error("{found} coordinates to start from, not {expected}")]
+    #[error("the number of coordinates to start from is {found}, not {expected}")]
     Coordinates {
         /// Its length.
         found: usize,

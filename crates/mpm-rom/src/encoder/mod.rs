@@ -31,7 +31,7 @@ pub enum EncoderError {
     #[error(transparent)]
     Layers(#[from] NetworkError),
     /// A frame has another number of points.
-    #[error("{found} points, but the encoder is for {expected}")]
+    #[error("the number of points is {found}, but the encoder is for {expected}")]
     Points {
         /// How many it has.
         found: usize,

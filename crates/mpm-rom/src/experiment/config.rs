@@ -118,7 +118,7 @@ impl Experiment {
             self.require(!cases.is_empty(), name, "at least one case is needed")?;
             for (number, values) in cases.iter().enumerate() {
                 let (field, found, expected) = (format!("{name}.{number}"), values.len(), self.parameters.len());
-                let message = format!("{found} values for {expected} parameters");
+                let message = format!("the number of values is {found}, that of parameters {expected}");
                 self.require(found == expected, &field, &message)?;
                 for value in values {
                     self.require(value.is_finite(), &field, &format!("{value} is not finite"))?;

@@ -210,7 +210,7 @@ pub(super) fn check_step_factor(experiment: &Experiment, factor: u64, steps: u64
 }
 
 fn uneven(experiment: &Experiment, factor: u64, steps: u64) -> ExperimentError {
-    let message = format!("{factor} does not divide the {steps} steps of a frame");
+    let message = format!("{factor} does not divide the number of steps of a frame, {steps}");
     experiment.field("run.step_factor", message)
 }
 

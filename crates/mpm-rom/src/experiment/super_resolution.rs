@@ -50,7 +50,9 @@ impl<const D: usize> Finer<D> {
         let expected = like.frames().count();
         if frames.len() != expected {
             let found = frames.len();
-            return refuse(format!("{found} frames, where the scene that is run has {expected}"));
+            return refuse(format!(
+                "the number of frames is {found}, where the scene that is run has {expected}"
+            ));
         }
         let mut error = PositionError::default();
         let mut traced = TracedRun::new(coarse, &recording.body.reference)?;

@@ -97,10 +97,7 @@ impl Experiment {
                 format!("parameters {:?}", body.parameters),
                 format!("parameters {:?}", self.parameters),
             )),
-            Some((
-                format!("{} runs", runs.len()),
-                format!("{} runs", self.cases.train.len()),
-            )),
+            Some((in_number(runs.len()), in_number(self.cases.train.len()))),
             differs.map(|(run, (found, expected))| (format!("run {run} of {found:?}"), format!("{expected:?}"))),
         ];
         match pairs.into_iter().flatten().find(|(found, expected)| found != expected) {
@@ -112,4 +109,8 @@ impl Experiment {
             }),
         }
     }
+}
+
+fn in_number(runs: usize) -> String {
+    format!("{runs} {}", if runs == 1 { "run" } else { "runs" })
 }

@@ -10,7 +10,7 @@ pub enum FullOrderError {
     #[error("no runs")]
     NoRuns,
     /// A stop was asked for between two runs.
-    #[error("stopped after {runs} runs")]
+    #[error("stopped after {runs} {}", if *.runs == 1 { "run" } else { "runs" })]
     Stopped {
         /// Runs done.
         runs: usize,
@@ -67,7 +67,7 @@ pub enum FullOrderError {
         run: usize,
     },
     /// The instants at which frames are looked for would change the time steps of the scene.
-    #[error("{per_frame} instants per frame, which do not divide its {steps} steps")]
+    #[error("the number of instants per frame, {per_frame}, does not divide that of its steps, {steps}")]
     FramesBetween {
         /// Instants per frame.
         per_frame: u64,
@@ -76,7 +76,7 @@ pub enum FullOrderError {
     },
     /// Time steps of a run were cut, so that a reduced run would not be damped alike.
     #[error(
-        "{file}: {found} time steps, where time.step = {step} makes {expected}: the Courant condition, time.end or an interval of [output] has cut some of them, and reduced runs would not be damped alike"
+        "{file}: the number of time steps is {found}, where time.step = {step} makes {expected}: the Courant condition, time.end or an interval of [output] has cut some of them, and reduced runs would not be damped alike"
     )]
     CutSteps {
         /// The scene's file.

@@ -8,7 +8,7 @@ const RANK_TOLERANCE: f64 = 1e-12;
 #[non_exhaustive]
 pub enum LeastSquaresError {
     /// More unknowns than equations.
-    #[error("{equations} equations for {unknowns} unknowns")]
+    #[error("the number of equations is {equations}, that of unknowns {unknowns}")]
     TooFewEquations {
         /// D times the number of points.
         equations: usize,
@@ -16,7 +16,7 @@ pub enum LeastSquaresError {
         unknowns: usize,
     },
     /// The solver has weights for another number of points.
-    #[error("{found} points for {expected} weights")]
+    #[error("the number of points is {found}, that of weights {expected}")]
     Weights {
         /// The number of points.
         found: usize,

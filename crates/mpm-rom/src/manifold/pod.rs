@@ -32,7 +32,7 @@ pub struct Pod<const D: usize> {
 #[non_exhaustive]
 pub enum LinearError {
     /// r is zero, or larger than the number of modes that the snapshots have (singular values above 10⁻¹² of the largest).
-    #[error("{wanted} coordinates: the displacements of the snapshots have rank {rank}")]
+    #[error("the number of coordinates is {wanted}, the displacements of the snapshots have rank {rank}")]
     Rank {
         /// r.
         wanted: usize,

@@ -35,7 +35,7 @@ pub enum OnlineError {
     },
     /// Fewer sample points than the coordinates and the kinematic regions need.
     #[error(
-        "{found} sample points, at least {needed} are needed: 5 on each kinematic region, and r / D = {coordinates} / {dimension}"
+        "the number of sample points is {found}, at least {needed} are needed: 5 on each kinematic region, and r / D = {coordinates} / {dimension}"
     )]
     TooFewSamples {
         /// |𝒫|.
@@ -58,7 +58,7 @@ pub enum OnlineError {
         points: usize,
     },
     /// Given sample points that leave a kinematic region out.
-    #[error("{found} of the sample points are on kinematic region {region}, at least {needed} are needed")]
+    #[error("kinematic region {region} has {found} of the sample points, at least {needed} are needed")]
     TooFewOnRegion {
         /// Its number in the scene.
         region: usize,

@@ -45,7 +45,7 @@ pub enum TensorFault {
         expected: u32,
     },
     /// The file belongs to another number of axes.
-    #[error("made for {found} dimensions, not {expected}")]
+    #[error("made for dimension {found}, not {expected}")]
     Dimension {
         /// D of the file.
         found: usize,

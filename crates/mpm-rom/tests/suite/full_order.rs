@@ -178,7 +178,7 @@ fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
     assert!(
         error
             .to_string()
-            .starts_with("7 instants per frame, which do not divide its 10 steps"),
+            .starts_with("the number of instants per frame, 7, does not divide that of its steps, 10"),
         "{error}"
     );
 }

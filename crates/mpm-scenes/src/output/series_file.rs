@@ -114,7 +114,11 @@ fn read_rows(path: &Path, most: usize) -> Result<Series, SimulationError> {
         };
         let row: Vec<f64> = cells.iter().zip(&columns).map(number).collect::<Result<_, _>>()?;
         if cells.len() != columns.len() || !series.push(row) {
-            let message = format!("{} values for {} columns", cells.len(), columns.len());
+            let message = format!(
+                "the number of values is {}, that of columns {}",
+                cells.len(),
+                columns.len()
+            );
             return Err(refused(line, message));
         }
     }

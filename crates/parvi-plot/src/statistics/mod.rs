@@ -25,7 +25,7 @@ pub enum StatisticsError {
         what: &'static str,
     },
     /// Two inputs that belong together differ in length.
-    #[error("{what}: expected {expected} entries, found {found}")]
+    #[error("{what}: expected length {expected}, found {found}")]
     Length {
         /// The input whose length is wrong.
         what: &'static str,
@@ -72,7 +72,7 @@ pub enum StatisticsError {
         value: f64,
     },
     /// The predictors of a fit are linearly dependent, or there are more unknowns than observations.
-    #[error("the fit is not determined: {observations} observations, {unknowns} unknowns")]
+    #[error("the fit is not determined: the number of observations is {observations}, that of unknowns {unknowns}")]
     Undetermined {
         /// The number of observations.
         observations: usize,

@@ -88,11 +88,11 @@ fn bad_shapes_are_named() {
     );
     assert_eq!(
         message("y,age\n1,2\n1,2,3\n"),
-        "some.csv, line 3: 3 cells, but the header has 2 columns"
+        "some.csv, line 3: the number of cells is 3, that of columns in the header 2"
     );
     assert_eq!(
         message("y,age\n1\n"),
-        "some.csv, line 2: 1 cells, but the header has 2 columns"
+        "some.csv, line 2: the number of cells is 1, that of columns in the header 2"
     );
     let wide = "y,a,b,c,d,e,f,g,h\n1,1,2,3,4,5,6,7,8\n";
     assert_eq!(

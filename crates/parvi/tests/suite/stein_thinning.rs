@@ -151,7 +151,7 @@ fn bad_input_is_named() {
     let empty = stein_thinning::<2>(&[], &[], 1).expect_err("no draws");
     assert_eq!(empty, PointSetError::Empty { field: "the sample" });
     let uneven = stein_thinning(&points, &points[..2], 1).expect_err("a score is missing");
-    assert_eq!(uneven.to_string(), "2 scores for 3 positions");
+    assert_eq!(uneven.to_string(), "the number of scores is 2, that of positions 3");
     let not_finite = stein_thinning(&points, &[[0.0; 2], [f64::NAN, 0.0], [0.0; 2]], 1).expect_err("a NaN");
     assert_eq!(not_finite.to_string(), "score 1 is [NaN, 0.0]: too large or not finite");
     let line = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];

@@ -99,7 +99,7 @@ fn normal<const D: usize>(centre: &str, covariance: Option<&str>) -> Result<Gaus
     if let Some(text) = covariance {
         let rows: Vec<&str> = text.split(';').collect();
         if rows.len() != D {
-            let reason = format!("there are {} rows, the target has {D} dimensions", rows.len());
+            let reason = format!("the number of rows is {}, the target has dimension {D}", rows.len());
             return Err(OptionError::new(FLAG, reason).into());
         }
         for (entries, row) in matrix.0.iter_mut().zip(rows) {
@@ -121,7 +121,7 @@ fn numbers(flag: &str, text: &str, dimension: usize) -> Result<Vec<f64>, OptionE
         return Ok(numbers);
     }
     let count = numbers.len();
-    let reason = format!("'{text}' has {count} numbers, the target has {dimension} dimensions");
+    let reason = format!("the number of entries of '{text}' is {count}, the target has dimension {dimension}");
     Err(OptionError::new(flag, reason))
 }
 

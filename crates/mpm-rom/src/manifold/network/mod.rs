@@ -47,7 +47,7 @@ pub enum NetworkError {
     #[error("{0:?} does not scale {1} axes")]
     Scaling(Scaling, usize),
     /// There are more or fewer parameters than weights and biases.
-    #[error("{found} parameters for {expected} weights and biases")]
+    #[error("the number of parameters is {found}, that of weights and biases {expected}")]
     Parameters {
         /// How many there are.
         found: usize,

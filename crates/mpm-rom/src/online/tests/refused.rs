@@ -22,19 +22,19 @@ fn bad_input_is_an_error_with_its_name() {
     for (error, expected) in [
         (
             refused(BLOCK, drawn(2), LAGRANGIAN),
-            "2 sample points, at least 3 are needed",
+            "the number of sample points is 2, at least 3 are needed",
         ),
         (
             refused(&held, drawn(7), LAGRANGIAN),
-            "7 sample points, at least 8 are needed",
+            "the number of sample points is 7, at least 8 are needed",
         ),
         (
             refused(BLOCK, redrawn(2), EULERIAN),
-            "2 sample points, at least 3 are needed",
+            "the number of sample points is 2, at least 3 are needed",
         ),
         (
             refused(&held, redrawn(7), LAGRANGIAN),
-            "7 sample points, at least 8 are needed",
+            "the number of sample points is 7, at least 8 are needed",
         ),
         (
             refused(BLOCK, redrawn(129), LAGRANGIAN),
@@ -42,7 +42,7 @@ fn bad_input_is_an_error_with_its_name() {
         ),
         (
             refused(&held, SampleChoice::Given(four_held), LAGRANGIAN),
-            "4 of the sample points are on kinematic region 0, at least 5 are needed",
+            "kinematic region 0 has 4 of the sample points, at least 5 are needed",
         ),
         (
             refused(BLOCK, drawn(1000), LAGRANGIAN),

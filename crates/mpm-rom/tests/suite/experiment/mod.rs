@@ -216,7 +216,7 @@ fn a_model_of_a_part_of_the_points_runs_a_finer_scene() {
     assert!(
         error
             .to_string()
-            .contains("run.step_factor: 3 does not divide the 20 steps"),
+            .contains("run.step_factor: 3 does not divide the number of steps of a frame, 20"),
         "{error}"
     );
 }
@@ -297,7 +297,7 @@ fn points_drawn_anew_in_every_step_are_near_the_full_order_run() {
     let refused = Experiment::parse(&text.replace("[12,", "[5,"), &file).expect("sound");
     let error = run::<2>(&refused, &out, &mut |_, _| true).expect_err("too few");
     let expected = format!(
-        "{}, run.samples: 5 sample points, at least 6 are needed",
+        "{}, run.samples: the number of sample points is 5, at least 6 are needed",
         file.display()
     );
     assert!(error.to_string().starts_with(&expected), "{error}");
@@ -362,7 +362,7 @@ fn more_points_than_those_of_the_dynamics_are_compared_with_a_run_of_their_own()
         (("interval = 0.05", "interval = 0.1"), "a frame every 0.1 s"),
         (
             ("end = 0.2", "end = 0.3"),
-            "7 frames, where the scene that is run has 5",
+            "the number of frames is 7, where the scene that is run has 5",
         ),
     ] {
         std::fs::write(directory.path().join("denser.toml"), denser.replace(change.0, change.1)).expect("written");

@@ -85,7 +85,7 @@ fn what_is_wrong_with_it_is_named() {
         ),
         (
             ("[2.5, 0.1]", "[2.5]"),
-            "more.toml, cases.test.1: 1 values for 2 parameters",
+            "more.toml, cases.test.1: the number of values is 1, that of parameters 2",
         ),
         (
             ("samples = [\"all\"]", "samples = []"),

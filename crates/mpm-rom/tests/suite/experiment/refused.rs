@@ -77,8 +77,14 @@ fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
 fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any_run() {
     let (directory, file) = files();
     let cases = [
-        (("[20,", "[0,"), "run.samples: 0 sample points, at least 6 are needed"),
-        (("[20,", "[5,"), "run.samples: 5 sample points, at least 6 are needed"),
+        (
+            ("[20,", "[0,"),
+            "run.samples: the number of sample points is 0, at least 6 are needed",
+        ),
+        (
+            ("[20,", "[5,"),
+            "run.samples: the number of sample points is 5, at least 6 are needed",
+        ),
         (
             ("[20,", "[20, 65,"),
             "run.samples: 65 sample points of 64 material points",
@@ -221,7 +227,8 @@ fn instants_that_do_not_divide_a_frame_are_refused_before_anything_is_written() 
         "cases = {",
         "frames_between = { per_frame = 3, distance = 0.01 }\ncases = {",
     );
-    let expected = "frames_between.per_frame: 3 instants per frame, which do not divide its 10 steps";
+    let expected =
+        "frames_between.per_frame: the number of instants per frame, 3, does not divide that of its steps, 10";
     assert_not_begun(&text, &file, &directory.path().join("out"), expected);
 }
 
@@ -298,7 +305,7 @@ fn runs_whose_steps_are_cut_are_refused() {
         std::fs::write(&scene, SCENE.replace(old, new)).expect("written");
         let error = train::<2>(&experiment, &out, &mut ()).expect_err(new).to_string();
         let expected = format!(
-            "run 0 (gravity = 1.0, angle = 0.0): {}: {found} time steps, where time.step = 0.0050000001 makes {expected}",
+            "run 0 (gravity = 1.0, angle = 0.0): {}: the number of time steps is {found}, where time.step = 0.0050000001 makes {expected}",
             scene.display()
         );
         assert!(error.starts_with(&expected), "{error}");

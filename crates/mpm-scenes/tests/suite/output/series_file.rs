@@ -45,8 +45,11 @@ fn a_line_that_is_no_row_is_named() {
             "line 1: the first column is `0.0`: must be `time`",
         ),
         ("time,a\n0.0,1.0\n1.0,x\n2.0,3.0\n", "line 3: a = `x`: must be a number"),
-        ("time,a\n0.0\n", "line 2: 1 values for 2 columns"),
-        ("time,a\n0.0,1.0,2.0\n", "line 2: 3 values for 2 columns"),
+        ("time,a\n0.0\n", "line 2: the number of values is 1, that of columns 2"),
+        (
+            "time,a\n0.0,1.0,2.0\n",
+            "line 2: the number of values is 3, that of columns 2",
+        ),
         ("time,a\n0.0,\n", "line 2: a = ``: must be a number"),
     ] {
         let message = read(text).expect_err(text).to_string();

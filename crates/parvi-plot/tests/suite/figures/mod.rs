@@ -206,7 +206,7 @@ fn particles_outside_the_axes_and_left_out_are_counted() {
     let mut particles = points(5000, 2);
     particles[7] = vec![500.0, 0.0];
     let svg = cloud_of(PointCloud::equal(&particles), Reference::None).unwrap();
-    assert!(svg.contains("1 of 5000 particles lie outside the axes."));
+    assert!(svg.contains("1 of 5000 particles lies outside the axes."));
     assert!(svg.contains("One of every 2 particles is drawn."));
 }
 
