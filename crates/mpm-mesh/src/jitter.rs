@@ -9,16 +9,14 @@ const SMALLEST_SHARE: f64 = 0.2;
 /// Halvings of a move that is too long, before the vertex stays where it is.
 const HALVINGS: u32 = 4;
 
-/// A random number, if it is one in [0, 1).
-fn uniform(value: f64) -> Result<f64, MeshError> {
-    if (0.0..1.0).contains(&value) {
-        return Ok(value);
-    }
-    Err(MeshError::InvalidParameter {
-        name: "random number",
+/// A number that is in its range.
+fn within(valid: bool, name: &'static str, value: f64, requirement: &'static str) -> Result<f64, MeshError> {
+    let error = MeshError::InvalidParameter {
+        name,
         value,
-        requirement: "at least 0 and below 1",
-    })
+        requirement,
+    };
+    valid.then_some(value).ok_or(error)
 }
 
 impl<const D: usize> SimplexMesh<D> {
@@ -30,14 +28,16 @@ impl<const D: usize> SimplexMesh<D> {
     /// [`MeshError::InvalidParameter`] for an amplitude outside [0, 1] or a random number outside [0, 1); other ones where the moved mesh is refused, which
     /// volumes above zero exclude up to rounding.
     pub fn jittered(&self, amplitude: f64, mut random: impl FnMut() -> f64) -> Result<Self, MeshError> {
-        if !(0.0..=1.0).contains(&amplitude) {
-            return Err(MeshError::InvalidParameter {
-                name: "amplitude",
-                value: amplitude,
-                requirement: "from 0 to 1",
-            });
-        }
-        let mut draw = || uniform(random());
+        within((0.0..=1.0).contains(&amplitude), "amplitude", amplitude, "from 0 to 1")?;
+        let mut draw = || {
+            let number = random();
+            within(
+                (0.0..1.0).contains(&number),
+                "random number",
+                number,
+                "at least 0 and below 1",
+            )
+        };
         let mut vertices = self.vertices().to_vec();
         let cells: Vec<u32> = self.cells().flatten().copied().collect();
         let (at_boundary, around) = (self.on_boundary(), self.vertex_cells());
