@@ -116,7 +116,7 @@ fn what_is_wrong_is_named() {
         (("epochs = 5", "epochs = 0"), "epochs = 0"),
         (
             ("samples = [20", "samples = [3"),
-            "rom.toml, run.samples: 3 sample points, at least",
+            "rom.toml, run.samples: the number of sample points is 3, at least",
         ),
     ] {
         std::fs::write(root.path().join("rom.toml"), EXPERIMENT.replace(change.0, change.1)).unwrap();

@@ -242,7 +242,7 @@ fn training_data_of_another_experiment_are_refused() {
         (
             train_own,
             "train = [[1.0, 0.0]]",
-            "1 runs, where the experiment has 2 runs",
+            "1 run, where the experiment has 2 runs",
         ),
         (
             train_own,
@@ -340,6 +340,9 @@ fn a_linear_manifold_of_more_coordinates_than_there_are_is_named_with_its_field(
     let error = run::<2>(&experiment, &out, &mut |_, _| true)
         .expect_err("8 frames that move")
         .to_string();
-    let expected = format!("{}, run.manifold: \"linear\": 9 coordinates: ", file.display());
+    let expected = format!(
+        "{}, run.manifold: \"linear\": the number of coordinates is 9, ",
+        file.display()
+    );
     assert!(error.starts_with(&expected), "{error}");
 }
