@@ -272,12 +272,12 @@ fn files_of_particles_that_make_no_sense_are_named() {
     };
     law("--start-law banana", &["--start-law", "banana", "3"]);
     law("--start-law doughnut", &["--start-law", "doughnut"]);
-    law("--start-centre 1,2", &["--start-centre", "1,2", "3 dimensions"]);
+    law("--start-centre 1,2", &["--start-centre", "1,2", "dimension 3"]);
     law("--start-centre 1,2,x", &["--start-centre", "x"]);
     law("--start-covariance 1", &["--start-covariance", "--start-centre"]);
     law(
         "--start-centre 0,0,0 --start-covariance 1,0,0;0,1,0",
-        &["--start-covariance", "2 rows"],
+        &["--start-covariance", "rows is 2"],
     );
     law(
         "--start-centre 0,0,0 --start-covariance 1,0,0;0,1,0;0,0,-1",
