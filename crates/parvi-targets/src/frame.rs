@@ -59,7 +59,8 @@ impl<const D: usize> Frame<D> {
             });
         }
         let sum = weights.map_or(1.0, |weights| weights.iter().sum());
-        if (sum - 1.0).abs() > LARGEST_ERROR_OF_SUM {
+        let is_one = (sum - 1.0).abs() <= LARGEST_ERROR_OF_SUM; // not where it is no number
+        if !is_one {
             return Err(TargetError::OutOfRange {
                 field: "the sum of the weights of the points".to_owned(),
                 value: sum,

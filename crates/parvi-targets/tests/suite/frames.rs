@@ -150,6 +150,10 @@ fn bad_frames_are_refused() {
             Err(TargetError::OutOfRange { value, .. }) if value == weights.iter().sum()
         ));
     }
+    assert!(matches!(
+        Frame::of_points(&[[0.0], [1.0], [2.0]], Some(&[0.5, f64::NAN, 0.5])),
+        Err(TargetError::OutOfRange { .. })
+    ));
     let weighted = Frame::of_points(&[[0.0], [1.0], [2.0]], Some(&[0.25, 0.5, 0.25])).unwrap();
     assert_eq!(*weighted.centre(), [1.0]);
     assert!((weighted.factor().0[0][0] - 0.5f64.sqrt()).abs() < 1e-15);
