@@ -41,159 +41,251 @@ pub(crate) struct Plan<'a, P, const D: usize> {
 pub(crate) fn drive<P, const D: usize>(
     body: &mut dyn Moving<'_, D>,
     frame: &Frame<D>,
-    mut plan: Plan<P, D>,
+    plan: Plan<P, D>,
     journal: &mut Journal,
     observer: &mut dyn Observer,
 ) -> Result<Driven<D>, SampleError>
 where
     P: FnMut(usize) -> PlannedStep<D>,
 {
-    let (mut steps, spacing) = (plan.steps, plan.spacing);
-    let late = steps - steps.div_ceil(10);
-    let mut scores = vec![[0.0; D]; body.particles().len()];
-    let mut trace: Vec<TracePoint> = Vec::new();
-    let mut guard = Guard::new(plan.retries);
-    let mut earlier = Extent::of(&body.particles().positions);
-    let (mut step, mut time, mut active_nodes, mut origin) = (1, 0.0, 0, [0.0; D]);
-    let mut ended = false;
-    if let Some(state) = journal.moving()? {
-        for skipped in 1..state.step {
-            body.turn(&(plan.step)(skipped));
-        }
-        guard.resume(&state);
-        state.restore(body);
-        let Progressed {
-            evaluations, replaced, ..
-        } = state.so_far;
-        let score = &mut body.force().score;
-        (score.evaluations, score.replaced) = (evaluations, replaced);
-        (step, time, earlier) = (state.step, state.so_far.time, state.so_far.earlier);
+    let mut way = Way::begin(body, frame, plan, journal, observer)?;
+    while way.step <= way.steps {
+        way.go_on(journal)?;
     }
-    let moment = Moment {
-        body: plan.body,
-        steps,
-        earlier_steps: plan.earlier_steps,
-        ..Moment::default()
-    };
-    let seen_after = |step, time| Moment { step, time, ..moment };
-    seen_after(step - 1, time).show(body.particles(), frame, observer)?;
-    if let Some(watching) = &mut plan.watching {
-        let failed = |error| SampleError::in_step(step - 1, error);
-        watching.look(step - 1, body, frame, spacing).map_err(failed)?;
-    }
-    while step <= steps {
-        let failed = |error| SampleError::in_step(step, error);
-        let so_far = Progressed {
-            time,
-            evaluations: body.force().score.evaluations,
-            replaced: body.force().score.replaced,
-            earlier,
+    way.end()
+}
+
+/// A body on its way.
+struct Way<'a, 'b, P, const D: usize> {
+    body: &'a mut dyn Moving<'b, D>,
+    frame: &'a Frame<D>,
+    plan: Plan<'a, P, D>,
+    observer: &'a mut dyn Observer,
+    guard: Guard<D>,
+    /// The step to come, from 1, and the last one.
+    step: usize,
+    steps: usize,
+    /// The step whose end is the beginning of the last tenth.
+    late: usize,
+    time: f64,
+    earlier: Extent<D>,
+    /// Of the last step.
+    origin: [f64; D],
+    active_nodes: usize,
+    trace: Vec<TracePoint>,
+    /// Whether a watch has ended it.
+    ended: bool,
+    scores: Vec<[f64; D]>,
+}
+
+impl<'a, 'b, P: FnMut(usize) -> PlannedStep<D>, const D: usize> Way<'a, 'b, P, D> {
+    /// At the start, or where an earlier process left it.
+    fn begin(
+        body: &'a mut dyn Moving<'b, D>,
+        frame: &'a Frame<D>,
+        plan: Plan<'a, P, D>,
+        journal: &mut Journal,
+        observer: &'a mut dyn Observer,
+    ) -> Result<Self, SampleError> {
+        let steps = plan.steps;
+        let mut way = Self {
+            guard: Guard::new(plan.retries),
+            step: 1,
+            steps,
+            late: steps - steps.div_ceil(10),
+            time: 0.0,
+            earlier: Extent::of(&body.particles().positions),
+            origin: [0.0; D],
+            active_nodes: 0,
+            trace: Vec::new(),
+            ended: false,
+            scores: vec![[0.0; D]; body.particles().len()],
+            body,
+            frame,
+            plan,
+            observer,
         };
-        let state = guard.state(body, step, so_far);
-        let mut planned = guard.plan(step, &mut plan.step);
-        planned.control.time_step *= guard.caution();
-        let report = match advance(body, &planned, plan.retries > 0) {
-            Ok(report) => report,
-            Err(failure) => {
-                let Some(state) = guard.back().filter(|_| !failure.is_final(&body.force().score)) else {
-                    return Err(failure.into_error(step));
-                };
-                state.restore(body);
-                (step, time) = (state.step, state.so_far.time);
-                trace.retain(|point| point.step < step);
-                seen_after(step - 1, time).show(body.particles(), frame, observer)?;
-                continue;
+        if let Some(state) = journal.moving()? {
+            for skipped in 1..state.step {
+                way.body.turn(&(way.plan.step)(skipped));
             }
-        };
-        if let Some(state) = guard.proved(state) {
-            journal.keep(state)?;
+            way.guard.resume(&state);
+            state.restore(way.body);
+            let score = &mut way.body.force().score;
+            (score.evaluations, score.replaced) = (state.so_far.evaluations, state.so_far.replaced);
+            (way.step, way.time, way.earlier) = (state.step, state.so_far.time, state.so_far.earlier);
         }
-        origin = planned.origin;
-        time += report.time_step;
-        active_nodes = report.active_nodes;
-        if plan.trace_every > 0 && (step % plan.trace_every == 0 || step == 1) {
-            let positions = body.particles().positions.clone();
-            let score = &mut body.force().score;
-            score.evaluate(&positions, &mut scores).map_err(failed)?;
-            let potential_energy = score.potential_energy(&positions);
-            let residual = body.residual(&origin, spacing, &scores).map_err(failed)?;
-            trace.push(TracePoint {
-                step,
-                time,
-                residual: Some(residual.ratio()),
-                kinetic_energy: body.particles().kinetic_energy(),
-                potential_energy,
-                internal_energy: plan.internal_energy.map(|of| of(body.particles())),
-                displacement: report.displacement,
-            });
+        way.show(way.step - 1)?;
+        if let Some(watching) = &mut way.plan.watching {
+            let failed = |error| SampleError::in_step(way.step - 1, error);
+            watching
+                .look(way.step - 1, way.body, frame, way.plan.spacing)
+                .map_err(failed)?;
         }
-        if step == late {
-            earlier = Extent::of(&body.particles().positions);
-        }
-        seen_after(step, time).show(body.particles(), frame, observer)?;
-        if observer.after_step(Progress { step, steps }).is_break() {
-            return Err(SampleError::Interrupted { step });
-        }
-        if let Some(watching) = plan.watching.as_mut().filter(|watching| watching.is_due(step, steps)) {
-            let ends = watching.look(step, body, frame, spacing).map_err(failed)?;
-            if ends && step < steps {
-                (steps, ended) = (step, true);
-            } else if step < late {
-                // Should the next look end the run.
-                earlier = Extent::of(&body.particles().positions);
-            }
-        }
-        step += 1;
+        Ok(way)
     }
 
-    let failed = |error| SampleError::in_step(steps, error);
-    let drift = earlier.drift_to(&Extent::of(&body.particles().positions));
-    let kinetic_energy = body.particles().kinetic_energy();
-    let storage_bytes = body.storage_bytes();
-    let mut positions = std::mem::take(&mut body.particles().positions);
-    let score = &mut body.force().score;
-    score.non_finite = NonFiniteScores::Report;
-    correct_moments(
-        plan.moment_correction,
-        f64::INFINITY,
-        &mut positions,
-        score,
-        &mut scores,
-    )
-    .map_err(failed)?;
-    let (evaluations, replaced) = (score.evaluations, score.replaced);
-    body.particles().positions = positions;
-    let residual = body.residual(&origin, spacing, &scores).map_err(failed)?;
-    let particles = body.particles();
-    let in_order = particles.in_creation_order(&particles.positions);
-    let samples = Samples {
-        positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
-        steps,
-        score_evaluations: evaluations,
-        scores_replaced: replaced,
-        residual: Some(residual.ratio()),
-        spacing: Some(spacing),
-        active_nodes: Some(active_nodes),
-        bodies: Some(1),
-        storage_bytes: Some(storage_bytes),
-        trace,
-        density_evaluations: plan
-            .watching
-            .as_ref()
-            .map_or(0, |watching| watching.density_evaluations),
-        watched: plan.watching.map(|watching| Watched {
-            ended,
-            ..watching.into_seen()
-        }),
-        ..Samples::default()
-    };
-    Ok(Driven {
-        samples,
-        scores: particles.in_creation_order(&scores),
-        positions: in_order,
-        drift,
-        kinetic_energy,
-    })
+    /// Make the next step, or go back where it went wrong.
+    fn go_on(&mut self, journal: &mut Journal) -> Result<(), SampleError> {
+        let step = self.step;
+        let score = &self.body.force().score;
+        let so_far = Progressed {
+            time: self.time,
+            evaluations: score.evaluations,
+            replaced: score.replaced,
+            earlier: self.earlier,
+        };
+        let state = self.guard.state(self.body, step, so_far);
+        let mut planned = self.guard.plan(step, &mut self.plan.step);
+        planned.control.time_step *= self.guard.caution();
+        let report = match advance(self.body, &planned, self.plan.retries > 0) {
+            Ok(report) => report,
+            Err(failure) => return self.go_back(failure),
+        };
+        if let Some(state) = self.guard.proved(state) {
+            journal.keep(state)?;
+        }
+        (self.origin, self.active_nodes) = (planned.origin, report.active_nodes);
+        self.time += report.time_step;
+        let every = self.plan.trace_every;
+        if every > 0 && (step.is_multiple_of(every) || step == 1) {
+            self.record(report.displacement)?;
+        }
+        if step == self.late {
+            self.earlier = Extent::of(&self.body.particles().positions);
+        }
+        self.show(step)?;
+        let steps = self.steps;
+        if self.observer.after_step(Progress { step, steps }).is_break() {
+            return Err(SampleError::Interrupted { step });
+        }
+        self.watch()?;
+        self.step += 1;
+        Ok(())
+    }
+
+    /// To the last state that proved good.
+    fn go_back(&mut self, failure: Failure) -> Result<(), SampleError> {
+        let Some(state) = self
+            .guard
+            .back()
+            .filter(|_| !failure.is_final(&self.body.force().score))
+        else {
+            return Err(failure.into_error(self.step));
+        };
+        state.restore(self.body);
+        let step = state.step;
+        (self.step, self.time) = (step, state.so_far.time);
+        self.trace.retain(|point| point.step < step);
+        self.show(step - 1)
+    }
+
+    /// A point of the trace.
+    fn record(&mut self, displacement: f64) -> Result<(), SampleError> {
+        let failed = |error| SampleError::in_step(self.step, error);
+        let positions = self.body.particles().positions.clone();
+        let score = &mut self.body.force().score;
+        score.evaluate(&positions, &mut self.scores).map_err(failed)?;
+        let potential_energy = score.potential_energy(&positions);
+        let residual = self.body.residual(&self.origin, self.plan.spacing, &self.scores);
+        self.trace.push(TracePoint {
+            step: self.step,
+            time: self.time,
+            residual: Some(residual.map_err(failed)?.ratio()),
+            kinetic_energy: self.body.particles().kinetic_energy(),
+            potential_energy,
+            internal_energy: self.plan.internal_energy.map(|of| of(self.body.particles())),
+            displacement,
+        });
+        Ok(())
+    }
+
+    /// What the observer sees after a step.
+    fn show(&mut self, step: usize) -> Result<(), SampleError> {
+        let moment = Moment {
+            body: self.plan.body,
+            steps: self.plan.steps,
+            earlier_steps: self.plan.earlier_steps,
+            step,
+            time: self.time,
+        };
+        moment.show(self.body.particles(), self.frame, self.observer)
+    }
+
+    /// A look at the body, where one is due; it may end the run.
+    fn watch(&mut self) -> Result<(), SampleError> {
+        let (step, steps) = (self.step, self.steps);
+        let watching = self.plan.watching.as_mut();
+        if let Some(watching) = watching.filter(|watching| watching.is_due(step, steps)) {
+            let ends = watching.look(step, self.body, self.frame, self.plan.spacing);
+            let ends = ends.map_err(|error| SampleError::in_step(step, error))?;
+            if ends && step < steps {
+                (self.steps, self.ended) = (step, true);
+            } else if step < self.late {
+                // Should the next look end the run.
+                self.earlier = Extent::of(&self.body.particles().positions);
+            }
+        }
+        Ok(())
+    }
+
+    /// The last move, and what is left.
+    fn end(self) -> Result<Driven<D>, SampleError> {
+        let Self {
+            body,
+            frame,
+            plan,
+            mut scores,
+            steps,
+            ..
+        } = self;
+        let failed = |error| SampleError::in_step(steps, error);
+        let drift = self.earlier.drift_to(&Extent::of(&body.particles().positions));
+        let kinetic_energy = body.particles().kinetic_energy();
+        let storage_bytes = body.storage_bytes();
+        let mut positions = std::mem::take(&mut body.particles().positions);
+        let score = &mut body.force().score;
+        score.non_finite = NonFiniteScores::Report;
+        let corrected = correct_moments(
+            plan.moment_correction,
+            f64::INFINITY,
+            &mut positions,
+            score,
+            &mut scores,
+        );
+        corrected.map_err(failed)?;
+        let (evaluations, replaced) = (score.evaluations, score.replaced);
+        body.particles().positions = positions;
+        let residual = body.residual(&self.origin, plan.spacing, &scores).map_err(failed)?;
+        let particles = body.particles();
+        let in_order = particles.in_creation_order(&particles.positions);
+        let watched = plan.watching;
+        let samples = Samples {
+            positions: finite(in_order.iter().map(|z| frame.to_target(z)).collect(), steps)?,
+            steps,
+            score_evaluations: evaluations,
+            scores_replaced: replaced,
+            residual: Some(residual.ratio()),
+            spacing: Some(plan.spacing),
+            active_nodes: Some(self.active_nodes),
+            bodies: Some(1),
+            storage_bytes: Some(storage_bytes),
+            trace: self.trace,
+            density_evaluations: watched.as_ref().map_or(0, |watching| watching.density_evaluations),
+            watched: watched.map(|watching| Watched {
+                ended: self.ended,
+                ..watching.into_seen()
+            }),
+            ..Samples::default()
+        };
+        Ok(Driven {
+            samples,
+            scores: particles.in_creation_order(&scores),
+            positions: in_order,
+            drift,
+            kinetic_energy,
+        })
+    }
 }
 
 /// Why a step is taken back.
