@@ -10,7 +10,7 @@
 use std::error::Error;
 use std::ops::ControlFlow;
 
-use parvi_pool::{PoolOptions, Report, explore};
+use parvi_pool::{Beginning, PoolOptions, Report, explore};
 use parvi_targets::{Frame, GaussianMixture, Mode};
 
 const WIDTHS: [f64; 5] = [1.0, 0.5, 0.3, 0.2, 0.1];
@@ -44,7 +44,13 @@ fn row<const D: usize>(search_effort: f64, particles: usize) -> Result<(), Box<d
                 ..PoolOptions::default()
             };
             let go_on = &mut |_: &Report<'_>| ControlFlow::Continue(());
-            let pool = explore(&target, &frame, &[], Vec::new(), particles, seed, &options, go_on)?;
+            let pool = explore(
+                &target,
+                Beginning::in_frame(&frame).with_seed(seed),
+                particles,
+                &options,
+                go_on,
+            )?;
             let is_off = pool.log_evidence.abs() > 4.0 * pool.log_evidence_error;
             wrong += u32::from(is_off && pool.objection(particles).is_none());
             evaluations += pool.density_evaluations + pool.score_evaluations;

@@ -1,24 +1,16 @@
 //! What takes long to compile, and the functions that call it: compiled in this crate for the dimensions whose features are on, once for all crates that call it.
 
-use parvi_targets::{Frame, Target};
+use parvi_targets::Target;
 
+use crate::beginning::Beginning;
 use crate::measure::Measure;
-use crate::mixture::Mixture;
 use crate::options::{PoolError, PoolOptions};
 use crate::pool::Pool;
 use crate::report::Observer;
 
 /// [`explore`](crate::explore).
-type Explore<const D: usize> = fn(
-    &dyn Target<D>,
-    &Frame<D>,
-    &[Mixture<D>],
-    Vec<f64>,
-    usize,
-    u64,
-    &PoolOptions,
-    &mut Observer<'_>,
-) -> Result<Pool<D>, PoolError>;
+type Explore<const D: usize> =
+    fn(&dyn Target<D>, Beginning<'_, D>, usize, &PoolOptions, &mut Observer<'_>) -> Result<Pool<D>, PoolError>;
 
 /// What is compiled for a dimension.
 pub(crate) struct Compiled<const D: usize> {
@@ -36,26 +28,18 @@ impl<const D: usize> Compiled<D> {
 
 mpm_parallel::compiled_ahead!(Compiled);
 
-/// Explore a target until the effective size suffices or the evaluations are used up.
-///
-/// `frame`: what is known of place and scale; scouts find what is off by powers of ten. `given`: proposals to begin with beside the scouts' (fits, particles).
-/// `tape`: values of the target that an earlier process with the same arguments had told its observer; they are used instead of evaluating it again, and the
-/// pool is the same to the bit. Up to 32 log densities and 32 scores of it, spread over all, are evaluated again all the same, and count as no evaluations: by these a tape of another target is known.
+/// Explore a target until the effective size suffices for so many particles, or the evaluations are used up.
 ///
 /// # Errors
 /// [`PoolError`]: an option out of range, a target that is nowhere finite, a tape of another target, or the observer's stop.
-#[allow(clippy::too_many_arguments)]
 pub fn explore<const D: usize>(
     target: &dyn Target<D>,
-    frame: &Frame<D>,
-    given: &[Mixture<D>],
-    tape: Vec<f64>,
+    start: Beginning<'_, D>,
     particles: usize,
-    seed: u64,
     options: &PoolOptions,
     observer: &mut Observer<'_>,
 ) -> Result<Pool<D>, PoolError> {
-    (Compiled::of().explore)(target, frame, given, tape, particles, seed, options, observer)
+    (Compiled::of().explore)(target, start, particles, options, observer)
 }
 
 /// M points of least energy distance from a measure, in the coordinates of its [`frame`](Measure::frame).

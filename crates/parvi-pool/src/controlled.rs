@@ -143,7 +143,7 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    use crate::{PoolOptions, explore};
+    use crate::{Beginning, PoolOptions, explore};
 
     use super::*;
 
@@ -161,9 +161,13 @@ mod tests {
 
     fn pool<const D: usize>(target: &dyn Target<D>) -> Pool<D> {
         let (frame, options) = (Frame::identity(), PoolOptions::default());
-        let explored = explore(target, &frame, &[], Vec::new(), 200, 1, &options, &mut |_| {
-            ControlFlow::Continue(())
-        });
+        let explored = explore(
+            target,
+            Beginning::in_frame(&frame).with_seed(1),
+            200,
+            &options,
+            &mut |_| ControlFlow::Continue(()),
+        );
         explored.unwrap()
     }
 

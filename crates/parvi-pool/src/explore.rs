@@ -1,10 +1,11 @@
 //! The pipeline: scouts, rounds of two folds, searches, a frozen proposal and its fresh points, until nothing objects.
 
-use parvi_targets::{Frame, Target};
+use parvi_targets::Target;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
 use crate::adapt::Adaptation;
+use crate::beginning::Beginning;
 use crate::density::Density;
 use crate::freeze::freeze;
 use crate::mixture::Mixture;
@@ -20,20 +21,16 @@ const FREE_DRAWS: u64 = 10;
 const FAR: u64 = 11;
 
 /// [`explore`](crate::explore), generated where it is called.
-#[allow(clippy::too_many_arguments)]
 pub(crate) fn explore<const D: usize>(
     target: &dyn Target<D>,
-    frame: &Frame<D>,
-    given: &[Mixture<D>],
-    tape: Vec<f64>,
+    start: Beginning<'_, D>,
     particles: usize,
-    seed: u64,
     options: &PoolOptions,
     observer: &mut Observer<'_>,
 ) -> Result<Pool<D>, PoolError> {
     let plan = options.plan::<D>(particles)?;
-    let mut density = Density::new(Source::new(target, tape, Some(observer)), frame);
-    let pool = explored(&mut density, given, particles, seed, plan);
+    let mut density = Density::new(Source::new(target, start.tape, Some(observer)), start.frame);
+    let pool = explored(&mut density, start.given, particles, start.seed, plan);
     // A tape that has served for all of it.
     density.source.prove_tape();
     density.source.go_on()?;

@@ -3,6 +3,7 @@
 mod adapt;
 mod anderson;
 mod ascent;
+mod beginning;
 mod cloud;
 mod compiled;
 mod condense;
@@ -48,6 +49,7 @@ mod tilt;
 mod walk;
 mod weights;
 
+pub use beginning::Beginning;
 pub use compiled::{condense, explore};
 pub use energy::EnergyDistance;
 pub use estimate::{Estimate, unit_of_squares};

@@ -63,7 +63,7 @@ fn level<const D: usize>(pool: &Pool<D>, share: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use parvi_pool::{PoolOptions, explore};
+    use parvi_pool::{Beginning, PoolOptions, explore};
     use parvi_targets::{Frame, Gaussian};
 
     use super::*;
@@ -74,7 +74,7 @@ mod tests {
         let frame = Frame::identity();
         let options = PoolOptions::default();
         let watch = &mut |_: &parvi_pool::Report<'_>| std::ops::ControlFlow::Continue(());
-        let pool = explore(&target, &frame, &[], Vec::new(), 100, 1, &options, watch).expect("a pool");
+        let pool = explore(&target, Beginning::in_frame(&frame).with_seed(1), 100, &options, watch).expect("a pool");
         let mut particles = pool.condense(100);
         let [first, second] = [[9.0, 0.0], [9.1, 0.0]];
         (particles[3], particles[7]) = (first, second);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use mpm_tensor::{Matrix, vector};
-use parvi_pool::{Kernel, Mixture, Pool, PoolError, PoolOptions, Report, Round, explore};
+use parvi_pool::{Beginning, Kernel, Mixture, Pool, PoolError, PoolOptions, Report, Round, explore};
 use parvi_targets::Frame;
 use rand::RngExt;
 
@@ -192,7 +192,12 @@ fn surveyed<const D: usize>(
     let seed = run.generator(Stream::Survey.of_body(0)).random();
     let given: Vec<Mixture<D>> = start_law(run, frame)?.into_iter().collect();
     let mut refused = None;
-    let tape = journal.tape();
+    let beginning = Beginning {
+        frame,
+        given: &given,
+        tape: journal.tape(),
+        seed,
+    };
     let mut kept = Instant::now();
     let mut watch = |report: &Report<'_>| {
         let flow = match report.round {
@@ -213,7 +218,7 @@ fn surveyed<const D: usize>(
         }
         flow
     };
-    let explored = explore(target, frame, &given, tape, count, seed, &pool_options, &mut watch);
+    let explored = explore(target, beginning, count, &pool_options, &mut watch);
     if let Some(error) = refused {
         return Err(error);
     }

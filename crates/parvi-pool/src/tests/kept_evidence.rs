@@ -2,7 +2,7 @@
 
 use parvi_targets::{Frame, Gaussian};
 
-use crate::{PoolOptions, explore};
+use crate::{Beginning, PoolOptions, explore};
 
 #[test]
 fn log_z_of_an_earlier_pool_is_kept_where_it_is_known_better_and_both_agree() {
@@ -10,11 +10,8 @@ fn log_z_of_an_earlier_pool_is_kept_where_it_is_known_better_and_both_agree() {
     let options = PoolOptions::default();
     let pool = explore(
         &Gaussian::<2>::standard(),
-        &frame,
-        &[],
-        Vec::new(),
+        Beginning::in_frame(&frame).with_seed(1),
         500,
-        1,
         &options,
         &mut |_| std::ops::ControlFlow::Continue(()),
     )

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use parvi_pool::{Pool, PoolError, PoolOptions, Report, explore};
+use parvi_pool::{Beginning, Pool, PoolError, PoolOptions, Report, explore};
 use parvi_targets::{Frame, Target};
 
 pub fn pool_of<const D: usize>(target: &dyn Target<D>, particles: usize, seed: u64) -> Result<Pool<D>, PoolError> {
@@ -16,13 +16,11 @@ pub fn pool_with<const D: usize>(
     options: &PoolOptions,
 ) -> Result<Pool<D>, PoolError> {
     let go_on = &mut |_: &Report<'_>| ControlFlow::Continue(());
+    let frame = Frame::identity();
     explore(
         target,
-        &Frame::identity(),
-        &[],
-        Vec::new(),
+        Beginning::in_frame(&frame).with_seed(seed),
         particles,
-        seed,
         options,
         go_on,
     )

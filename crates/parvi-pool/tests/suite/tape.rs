@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use parvi_pool::{Observer, PoolError, PoolOptions, explore};
+use parvi_pool::{Beginning, Observer, PoolError, PoolOptions, explore};
 use parvi_targets::{Banana, Frame, Target};
 
 #[test]
@@ -24,7 +24,9 @@ fn a_run_goes_on_from_its_tape_to_the_same_bits() {
     let run = |tape: Vec<f64>, observer: &mut Observer<'_>| {
         target.1.store(0, Ordering::Relaxed);
         let options = PoolOptions::default();
-        let pool = explore(&target, &Frame::identity(), &[], tape, 100, 3, &options, observer);
+        let frame = Frame::identity();
+        let beginning = Beginning::in_frame(&frame).with_seed(3).with_tape(tape);
+        let pool = explore(&target, beginning, 100, &options, observer);
         (pool, target.1.load(Ordering::Relaxed))
     };
     let (whole, asked) = run(Vec::new(), &mut |_| ControlFlow::Continue(()));
@@ -79,7 +81,9 @@ fn a_dear_density_is_stopped_between_rounds_and_hardly_anything_is_evaluated_twi
     };
     let run = |tape: Vec<f64>, observer: &mut Observer<'_>| {
         target.1.store(0, Ordering::Relaxed);
-        let pool = explore(&target, &Frame::identity(), &[], tape, 20, 3, &options, observer);
+        let frame = Frame::identity();
+        let beginning = Beginning::in_frame(&frame).with_seed(3).with_tape(tape);
+        let pool = explore(&target, beginning, 20, &options, observer);
         (pool, target.1.load(Ordering::Relaxed))
     };
     let (whole, asked) = run(Vec::new(), &mut |_| ControlFlow::Continue(()));
@@ -128,13 +132,11 @@ fn a_tape_of_another_target_is_refused() {
     let run = |edge, slope, tape: Vec<f64>, stop: usize| {
         let (mut kept, target) = (Vec::new(), Altered { edge, slope });
         let options = PoolOptions::default();
+        let frame = Frame::identity();
         let found = explore(
             &target,
-            &Frame::identity(),
-            &[],
-            tape,
+            Beginning::in_frame(&frame).with_seed(3).with_tape(tape),
             100,
-            3,
             &options,
             &mut |report| {
                 kept = report.tape.to_vec();
