@@ -1,5 +1,6 @@
 //! An experiment from one file: full-order data, training, reduced runs beside full-order ones.
 
+mod at_hand;
 mod beside;
 mod case;
 mod chosen;

@@ -1,21 +1,18 @@
 //! Reduced runs of the test cases, each beside its full-order run.
 
-use std::cell::RefCell;
 use std::path::Path;
 
 use mpm_scenes::Scene;
 
+use super::at_hand::{AtHand, WithoutPoints};
 use super::beside::{Choice, Full, beside, not_begun};
 use super::chosen::Chosen;
 use super::files::{self, names};
 use super::frame_files::{self, FrameFiles};
 use super::results::{self, ReducedRow};
-use super::sampling::Sampling;
 use super::super_resolution::Finer;
-use super::trained::models_for;
 use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
 use crate::full_order::{FullOrderError, Recording};
-use crate::manifold::{Manifold, Pod};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
 
@@ -44,133 +41,16 @@ pub fn run<const D: usize>(
     experiment.check_same_body::<D>()?;
     experiment.occupy(directory)?;
     experiment.check_scene_of(directory)?;
-    let document = experiment.read_run_scene()?;
-    let finer = experiment.super_resolution_file();
-    let finer = finer.map(|file| experiment.read_named("run.super_resolution", &file));
-    let finer = finer.transpose()?;
-    let (models, trained_on) = models_for::<D>(experiment, directory)?;
-    let at_rest = models
-        .iter()
-        .map(|(_, model)| model.encoder().encode(&trained_on.reference));
-    let at_rest: Vec<Vec<f64>> = at_rest.collect::<Result<_, _>>()?;
-    // Linear manifolds and choices of sample points are made of the training data.
-    let is_needed = experiment.run.manifold.contains(&ManifoldName::Linear) || experiment.run.chooses_on_training();
-    let training: Option<Snapshots<D>> = is_needed.then(|| experiment.read_data(directory)).transpose()?;
-    if let Some(snapshots) = &training
-        && snapshots.points() != trained_on.reference.len()
-    {
-        return Err(ExperimentError::OtherData {
-            file: directory.join(names::TRAINING_DATA).display().to_string(),
-            found: format!("{} points", snapshots.points()),
-            expected: format!("{} points", trained_on.reference.len()),
-        });
-    }
-    let linear = match &training {
-        Some(snapshots) if experiment.run.manifold.contains(&ManifoldName::Linear) => {
-            let refused = |error| experiment.field("run.manifold", format!("\"linear\": {error}"));
-            Some(Pod::new(snapshots, experiment.training.coordinates).map_err(refused)?)
-        }
-        _ => None,
-    };
-    let family = |name, network: usize| match (name, &linear) {
-        (ManifoldName::Linear, Some(pod)) => pod as &dyn Manifold<D>,
-        _ => models[network].1.network(),
-    };
-    let choices = choices(experiment, models.len());
+    let at_hand = AtHand::<D>::read(experiment, directory)?;
+    let choices = choices(experiment, at_hand.models.len());
     let runs = choices.len() * experiment.cases.test.len();
-    let after_run = RefCell::new(after_run);
-    let (mut chosen, mut without_points) = (Chosen::default(), Vec::new());
-    if let Some(snapshots) = training.as_ref().filter(|_| experiment.run.chooses_on_training()) {
-        let document = experiment.read_scene()?;
-        for (name, network) in maps(experiment, models.len()) {
-            let sampling = Sampling {
-                experiment,
-                document: &document,
-                model: &models[network].1,
-                network,
-                name,
-                manifold: family(name, network),
-                snapshots,
-                go_on: &|| after_run.borrow_mut()(0, runs),
-            };
-            if let Err(reason) = unless_impossible(sampling.choose(&mut chosen))? {
-                without_points.push((name, network, reason));
-            }
-        }
-    }
+    let (mut chosen, without_points) = at_hand.choose_points(&mut || after_run(0, runs))?;
     frame_files::forget_earlier(directory)?;
-    let after_run = after_run.into_inner();
     let mut rows = Vec::new();
-    for (case, values) in experiment.cases.test.iter().enumerate() {
-        let scene = experiment.scene_of(&document, values)?;
-        // Full-order runs can be long: what makes no reduced body is refused before them.
-        for &factor in &experiment.run.step_factor {
-            reduced_body(experiment, &scene, &trained_on.centroid, factor)?;
-        }
-        let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
-        let recording = recording.about(&trained_on.centroid);
-        let (frames_of_run, effort) = recording
-            .run_in_even_steps(&scene)
-            .map_err(|error| ExperimentError::of_test_case(experiment, case, error))?;
-        let run = Run {
-            parameters: values.clone(),
-            frames: frames_of_run,
-        };
-        let snapshots = Snapshots::new(recording.body, vec![run]).map_err(FullOrderError::from)?;
-        // The encoder knows the points that it was trained on, no others.
-        let reconstruction_errors: Vec<Option<f64>> = match &experiment.run.scene {
-            None => models
-                .iter()
-                .map(|(_, model)| model.reconstruction_error(&snapshots).map(Some))
-                .collect::<Result<_, _>>()?,
-            Some(_) => vec![None; models.len()],
-        };
-        let finer = match &finer {
-            None => None,
-            Some(finer) => {
-                let coarse = reduced_body(experiment, &scene, &trained_on.centroid, 1)?;
-                Some(Finer::run(experiment, finer, case, &coarse, &snapshots)?)
-            }
-        };
-        let full = Full {
-            case,
-            parameters: values,
-            reference: snapshots.reference(),
-            frames: &snapshots.runs()[0].frames,
-            seconds: effort.time.as_secs_f64(),
-            finer: finer.as_ref(),
-        };
+    for case in 0..experiment.cases.test.len() {
+        let test_case = TestCase::run(&at_hand, case)?;
         for choice in &choices {
-            let manifold = family(choice.manifold, choice.network);
-            let body = reduced_body(experiment, &scene, &trained_on.centroid, choice.step_factor)?;
-            let guess = match choice.manifold {
-                ManifoldName::Network => at_rest[choice.network].clone(),
-                ManifoldName::Linear => vec![0.0; manifold.coordinates()],
-            };
-            let (number, points) = (rows.len(), body.reference.len());
-            let made = || {
-                let run = &experiment.run;
-                let samples = run.samples(choice, &mut chosen, manifold.coordinates(), &body)?;
-                let options = run.options(choice, samples);
-                let written = run.vtu.then(|| FrameFiles::of_run(directory, number));
-                beside(manifold, &guess, body, &full, choice, options, written.transpose()?)
-            };
-            let without_points = without_points.iter().find(|(name, network, _)| {
-                choice.is_made_on_training() && (*name, *network) == (choice.manifold, choice.network)
-            });
-            let made = match without_points {
-                Some((_, _, reason)) => Err(reason.clone()),
-                None => unless_impossible(made())?,
-            };
-            let mut row = made.unwrap_or_else(|outcome| ReducedRow {
-                outcome,
-                ..not_begun(&full, choice, points)
-            });
-            if choice.manifold == ManifoldName::Network {
-                row.reconstruction_error = reconstruction_errors[choice.network];
-                row.variant = models[choice.network].0.clone();
-            }
-            rows.push(row);
+            rows.push(test_case.reduced(choice, rows.len(), &mut chosen, &without_points)?);
             let table = results::results(&experiment.parameters, &rows);
             files::write(&directory.join(names::RESULTS), &table)?;
             files::write(&directory.join(names::FRAMES), &results::frames(&rows))?;
@@ -182,8 +62,117 @@ pub fn run<const D: usize>(
     Ok(rows)
 }
 
+/// The full-order run of a test case.
+struct TestCase<'a, const D: usize> {
+    at_hand: &'a AtHand<'a, D>,
+    case: usize,
+    scene: Scene,
+    snapshots: Snapshots<D>,
+    seconds: f64,
+    finer: Option<Finer<D>>,
+    /// By network; the encoder knows the points that it was trained on, no others.
+    reconstruction_errors: Vec<Option<f64>>,
+}
+
+impl<'a, const D: usize> TestCase<'a, D> {
+    fn run(at_hand: &'a AtHand<'a, D>, case: usize) -> Result<Self, ExperimentError> {
+        let (experiment, values) = (at_hand.experiment, &at_hand.experiment.cases.test[case]);
+        let centroid = &at_hand.trained_on.centroid;
+        let scene = experiment.scene_of(&at_hand.document, values)?;
+        // Full-order runs can be long: what makes no reduced body is refused before them.
+        for &factor in &experiment.run.step_factor {
+            reduced_body(experiment, &scene, centroid, factor)?;
+        }
+        let recording = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?;
+        let recording = recording.about(centroid);
+        let (frames, effort) = recording
+            .run_in_even_steps(&scene)
+            .map_err(|error| ExperimentError::of_test_case(experiment, case, error))?;
+        let run = Run {
+            parameters: values.clone(),
+            frames,
+        };
+        let snapshots = Snapshots::new(recording.body, vec![run]).map_err(FullOrderError::from)?;
+        let models = at_hand.models.iter();
+        let reconstruction_errors = match &experiment.run.scene {
+            None => models
+                .map(|(_, model)| model.reconstruction_error(&snapshots).map(Some))
+                .collect::<Result<_, _>>()?,
+            Some(_) => vec![None; models.len()],
+        };
+        let finer = match &at_hand.finer {
+            None => None,
+            Some(finer) => {
+                let coarse = reduced_body(experiment, &scene, centroid, 1)?;
+                Some(Finer::run(experiment, finer, case, &coarse, &snapshots)?)
+            }
+        };
+        Ok(Self {
+            at_hand,
+            case,
+            scene,
+            snapshots,
+            seconds: effort.time.as_secs_f64(),
+            finer,
+            reconstruction_errors,
+        })
+    }
+
+    /// The reduced run with a number, beside it.
+    fn reduced(
+        &self,
+        choice: &Choice,
+        number: usize,
+        chosen: &mut Chosen<D>,
+        without_points: &WithoutPoints,
+    ) -> Result<ReducedRow, ExperimentError> {
+        let AtHand {
+            experiment, directory, ..
+        } = *self.at_hand;
+        let full = Full {
+            case: self.case,
+            parameters: &experiment.cases.test[self.case],
+            reference: self.snapshots.reference(),
+            frames: &self.snapshots.runs()[0].frames,
+            seconds: self.seconds,
+            finer: self.finer.as_ref(),
+        };
+        let manifold = self.at_hand.manifold(choice.manifold, choice.network);
+        let centroid = &self.at_hand.trained_on.centroid;
+        let body = reduced_body(experiment, &self.scene, centroid, choice.step_factor)?;
+        let guess = match choice.manifold {
+            ManifoldName::Network => self.at_hand.at_rest[choice.network].clone(),
+            ManifoldName::Linear => vec![0.0; manifold.coordinates()],
+        };
+        let points = body.reference.len();
+        let made = || {
+            let run = &experiment.run;
+            let samples = run.samples(choice, chosen, manifold.coordinates(), &body)?;
+            let options = run.options(choice, samples);
+            let written = run.vtu.then(|| FrameFiles::of_run(directory, number));
+            beside(manifold, &guess, body, &full, choice, options, written.transpose()?)
+        };
+        let without_points = without_points.iter().find(|(name, network, _)| {
+            choice.is_made_on_training() && (*name, *network) == (choice.manifold, choice.network)
+        });
+        let made = match without_points {
+            Some((_, _, reason)) => Err(reason.clone()),
+            None => unless_impossible(made())?,
+        };
+        let mut row = made.unwrap_or_else(|outcome| ReducedRow {
+            outcome,
+            ..not_begun(&full, choice, points)
+        });
+        if choice.manifold == ManifoldName::Network {
+            row.reconstruction_error = self.reconstruction_errors[choice.network];
+            row.variant = self.at_hand.models[choice.network].0.clone();
+        }
+        Ok(row)
+    }
+}
+
 /// A map without a state at rest, or one from which there is no step, is a result; other errors are none.
-fn unless_impossible<T>(made: Result<T, ExperimentError>) -> Result<Result<T, String>, ExperimentError> {
+pub(super) fn unless_impossible<T>(made: Result<T, ExperimentError>) -> Result<Result<T, String>, ExperimentError> {
     match made {
         Err(error @ (ExperimentError::Map(_) | ExperimentError::Online(_))) => Ok(Err(error.to_string())),
         made => made.map(Ok),
@@ -215,7 +204,7 @@ fn uneven(experiment: &Experiment, factor: u64, steps: u64) -> ExperimentError {
 }
 
 /// The families of maps with the numbers of their networks.
-fn maps(experiment: &Experiment, networks: usize) -> Vec<(ManifoldName, usize)> {
+pub(super) fn maps(experiment: &Experiment, networks: usize) -> Vec<(ManifoldName, usize)> {
     let names = experiment.run.manifold.iter();
     let each = names.flat_map(|&name| {
         let count = if name == ManifoldName::Network { networks } else { 1 };
