@@ -1,6 +1,6 @@
 //! The one seam: where a particle sits → which nodes, with which weight and gradient.
 
-use mpm_kernels::{Columns, Deposit, Entry, Interpolated, NodeField, NodeSink, UniformGrid, Wanted};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, LANES, NodeField, NodeSink, UniformGrid, Wanted};
 use mpm_tensor::Matrix;
 use mpm_tensor::vector::multiply_add;
 
@@ -112,6 +112,19 @@ pub trait Basis<const D: usize>: Sync {
     /// Collect what the particles of `cell` have in common in the place of what is there: asked before they deposit and interpolate.
     #[inline(always)]
     fn enter(&self, _cell: usize, _collected: &mut Self::Cell) {}
+
+    /// [`enter`](Self::enter), and visit the numbers of four nodes at a time, in the order of their places, where they are
+    /// [side by side](Self::NODES_SIDE_BY_SIDE). `node_count` is that of all nodes.
+    #[inline(always)]
+    fn enter_by_fours(
+        &self,
+        cell: usize,
+        collected: &mut Self::Cell,
+        _node_count: usize,
+        _visit: impl FnMut([u32; LANES]),
+    ) {
+        self.enter(cell, collected);
+    }
 
     /// Visit the stencil of a particle, given by its place in the schedule and the position `x` that it was activated with:
     /// place in [`cell_nodes`](Self::cell_nodes), weight, gradient, offset.

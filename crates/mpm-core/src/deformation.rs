@@ -47,27 +47,52 @@ impl<'a, M> Deformation<'a, M> {
     {
         if let Some((F, state)) = particle.deformation {
             let trial = deformed(F, gradient, self.time_step);
-            let mut work = particle.work;
-            if let Some(work) = &mut work {
-                let before = particle.velocity_gradient.as_deref().unwrap_or(&Matrix::ZERO);
-                **work = self
-                    .medium
-                    .stress_work([F, &trial], &(*gradient * self.time_step), state, before);
-            }
-            *F = if self.admit {
-                self.medium.advance(&trial, state)
-            } else {
-                trial
-            };
-            // What a trial beyond the yield surface would store is taken back within the step: none of it is an error of the time integration.
-            if let Some(work) = work
-                && self.medium.yields([&trial, F], state)
-            {
-                *work = StressWork::default();
+            match particle.work {
+                None => *F = self.admitted(&trial, state),
+                Some(work) => {
+                    let before = particle.velocity_gradient.as_deref().unwrap_or(&Matrix::ZERO);
+                    *work = self.account((F, trial), state, &(*gradient * self.time_step), before);
+                }
             }
             if let (true, Some(velocity_gradient)) = (self.rate_dependent, particle.velocity_gradient) {
                 *velocity_gradient = *gradient;
             }
+        }
+    }
+
+    /// What becomes of a trial.
+    #[inline(always)]
+    fn admitted<const D: usize>(&self, trial: &Matrix<D>, state: &mut M::State) -> Matrix<D>
+    where
+        M: Medium<D>,
+    {
+        if self.admit {
+            self.medium.advance(trial, state)
+        } else {
+            *trial
+        }
+    }
+
+    /// Deform along the motion `way` = Δt L, and say what becomes of the work. Apart, and with the trial by value: elsewhere it stays in registers.
+    #[allow(non_snake_case)]
+    #[inline(never)]
+    fn account<const D: usize>(
+        &self,
+        (F, trial): (&mut Matrix<D>, Matrix<D>),
+        state: &mut M::State,
+        way: &Matrix<D>,
+        velocity_gradient: &Matrix<D>,
+    ) -> StressWork
+    where
+        M: Medium<D>,
+    {
+        let work = self.medium.stress_work([F, &trial], way, state, velocity_gradient);
+        *F = self.admitted(&trial, state);
+        // What a trial beyond the yield surface would store is taken back within the step: none of it is an error of the time integration.
+        if self.medium.yields([&trial, F], state) {
+            StressWork::default()
+        } else {
+            work
         }
     }
 }
@@ -90,9 +115,8 @@ pub(crate) fn deform<const LEAST_SQUARES: bool, const D: usize, B: Basis<D>, M: 
                 moment: false,
             };
             let (numbers, size) = (work.nodes, work.nodes.len());
-            basis.enter(work.cell, collected);
             if !B::LONE_PARTICLES {
-                velocities.collect(basis, numbers, velocity);
+                velocities.collect_entering(basis, (work.cell, collected), numbers, velocity);
             }
             for p in work.particles {
                 let particle = data.particle(p - first, false, M::DEFORMS);

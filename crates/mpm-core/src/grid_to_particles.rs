@@ -97,10 +97,9 @@ fn advect<const DEFORM: bool, const D: usize, B: Basis<D>, T: Transfer<D>, M: Me
                 moment: T::AFFINE,
             };
             let (numbers, size, value) = (work.nodes, work.nodes.len(), Wanted::default());
-            basis.enter(work.cell, collected);
             let [velocities, changes] = fields;
             if !B::LONE_PARTICLES {
-                velocities.collect(basis, numbers, velocity);
+                velocities.collect_entering(basis, (work.cell, collected), numbers, velocity);
                 if T::INCREMENTAL {
                     changes.collect(basis, numbers, change);
                 }

@@ -148,12 +148,12 @@ pub trait NodeField<const D: usize> {
         self.packed::<1>(index).0[0]
     }
 
-    /// Those of the nodes 4 `group` to 4 `group` + 3 side by side: no meaning, then component by component; for D ≤ 3.
+    /// The nodes of the places four by four, side by side: no meaning, then component by component; for D ≤ 3. A field that does not know how many there are has
+    /// no end.
     #[inline(always)]
-    fn side_by_side(&self, group: usize) -> [Lanes; LANES] {
-        let first = group * LANES;
-        let [a, b, c, d] = [first, first + 1, first + 2, first + 3].map(|index| self.lanes(index));
-        Lanes::transpose([a, b, c, d])
+    fn by_fours(&self) -> impl Iterator<Item = [Lanes; LANES]> {
+        let lanes = |first: usize| std::array::from_fn(|place| self.lanes(first + place));
+        (0..).step_by(LANES).map(move |first| Lanes::transpose(lanes(first)))
     }
 
     /// The `length` places from `first` on, as [`NodeSink::window`].

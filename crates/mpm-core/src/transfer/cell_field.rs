@@ -9,6 +9,9 @@ use crate::{Basis, NO_NODE};
 
 /// A vector field by number of the node.
 pub(crate) trait GridField<const D: usize>: Copy {
+    /// Number of nodes.
+    fn node_count(&self) -> usize;
+
     /// The vector at a node.
     fn vector(&self, number: usize) -> [f64; D];
 
@@ -48,6 +51,11 @@ impl<N, const D: usize> Copy for Changes<'_, N, D> {}
 
 impl<N: GridNode<D>, const D: usize> GridField<D> for Velocities<'_, N, D> {
     #[inline(always)]
+    fn node_count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
     fn vector(&self, number: usize) -> [f64; D] {
         *self.0[number].velocity()
     }
@@ -59,6 +67,11 @@ impl<N: GridNode<D>, const D: usize> GridField<D> for Velocities<'_, N, D> {
 }
 
 impl<N: GridNode<D>, const D: usize> GridField<D> for Changes<'_, N, D> {
+    #[inline(always)]
+    fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
     #[inline(always)]
     fn vector(&self, number: usize) -> [f64; D] {
         self.nodes[number].change(self.damping)
@@ -92,11 +105,40 @@ impl CellField {
     #[inline(always)]
     pub fn collect<const D: usize, B: Basis<D>>(&mut self, _: &B, numbers: &[u32], field: impl GridField<D>) {
         match const { groups_of(D) } {
-            1 if B::NODES_SIDE_BY_SIDE => self.collect_side_by_side(numbers, field),
+            1 if B::NODES_SIDE_BY_SIDE => {
+                self.0.resize(numbers.len(), Lanes::ZERO);
+                let mut places = self.0.as_chunks_mut().0.iter_mut();
+                numbers
+                    .as_chunks()
+                    .0
+                    .iter()
+                    .for_each(|&four| write_four(&mut places, four, field));
+            }
             1 => self.collect_in::<1, D>(numbers, field),
             2 => self.collect_in::<2, D>(numbers, field),
             3 => self.collect_in::<3, D>(numbers, field),
             _ => self.collect_in::<4, D>(numbers, field),
+        }
+    }
+
+    /// [`Basis::enter`] and [`collect`](Self::collect), in one go over the nodes where they are side by side.
+    #[inline(always)]
+    pub fn collect_entering<const D: usize, B: Basis<D>>(
+        &mut self,
+        basis: &B,
+        (cell, collected): (usize, &mut B::Cell),
+        numbers: &[u32],
+        field: impl GridField<D>,
+    ) {
+        if B::NODES_SIDE_BY_SIDE {
+            self.0.resize(numbers.len(), Lanes::ZERO);
+            let mut places = self.0.as_chunks_mut().0.iter_mut();
+            basis.enter_by_fours(cell, collected, field.node_count(), |four| {
+                write_four(&mut places, four, field)
+            });
+        } else {
+            basis.enter(cell, collected);
+            self.collect(basis, numbers, field);
         }
     }
 
@@ -110,20 +152,24 @@ impl CellField {
         }
     }
 
-    #[inline(always)]
-    fn collect_side_by_side<const D: usize>(&mut self, numbers: &[u32], field: impl GridField<D>) {
-        self.0.resize(numbers.len(), Lanes::ZERO);
-        let at = |number: u32| field.packed::<1>(number as usize).lanes()[0];
-        for (lanes, &[a, b, c, d]) in self.0.as_chunks_mut::<LANES>().0.iter_mut().zip(numbers.as_chunks().0) {
-            // What has no meaning is not written.
-            lanes[1..].copy_from_slice(&Lanes::transpose([at(a), at(b), at(c), at(d)])[1..]);
-        }
-    }
-
     /// The field at the `size` nodes of the cell.
     #[inline(always)]
     pub fn nodes<const D: usize, B: Basis<D>>(&self, _: &B, size: usize) -> Collected<'_, B> {
         Collected(&self.0[..size * groups_of(D)], PhantomData)
+    }
+}
+
+/// The field at the next four nodes, side by side.
+#[inline(always)]
+fn write_four<'a, const D: usize>(
+    places: &mut impl Iterator<Item = &'a mut [Lanes; LANES]>,
+    [a, b, c, d]: [u32; LANES],
+    field: impl GridField<D>,
+) {
+    let at = |number: u32| field.packed::<1>(number as usize).lanes()[0];
+    if let Some(lanes) = places.next() {
+        // What has no meaning is not written.
+        lanes[1..].copy_from_slice(&Lanes::transpose([at(a), at(b), at(c), at(d)])[1..]);
     }
 }
 
@@ -154,12 +200,12 @@ impl<const D: usize, B: Basis<D>> NodeField<D> for Collected<'_, B> {
     }
 
     #[inline(always)]
-    fn side_by_side(&self, group: usize) -> [Lanes; LANES] {
-        if B::NODES_SIDE_BY_SIDE {
-            return self.0.as_chunks().0[group];
-        }
-        let at = |lane| NodeField::<D>::lanes(self, group * LANES + lane);
-        Lanes::transpose([at(0), at(1), at(2), at(3)])
+    fn by_fours(&self) -> impl Iterator<Item = [Lanes; LANES]> {
+        let side_by_side = |four: &[Lanes; LANES]| match B::NODES_SIDE_BY_SIDE {
+            true => *four,
+            false => Lanes::transpose(*four),
+        };
+        self.0.as_chunks().0.iter().map(side_by_side)
     }
 
     #[inline(always)]

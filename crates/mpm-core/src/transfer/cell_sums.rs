@@ -51,9 +51,8 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N,
     #[inline(always)]
     pub fn sums(&mut self) -> impl NodeSink<D> {
         Sums::<B, N, D, false> {
-            stencil: self.stencil,
+            stencil: self.stencil.all(),
             lanes: self.sums,
-            first: 0,
             at_once: self.at_once,
             basis: PhantomData,
         }
@@ -63,9 +62,8 @@ impl<'a, 'b, B: Basis<D>, N: GridNode<D>, const D: usize> CellSums<'a, 'b, B, N,
     #[inline(always)]
     pub fn impulses(&mut self) -> impl NodeSink<D> {
         Sums::<B, N, D, true> {
-            stencil: self.stencil,
+            stencil: self.stencil.all(),
             lanes: self.impulses,
-            first: 0,
             at_once: self.at_once,
             basis: PhantomData,
         }
@@ -103,17 +101,16 @@ fn close<const G: usize, const D: usize, N: GridNode<D>>(
     });
 }
 
-struct Sums<'a, 'b, B, N, const D: usize, const IMPULSES: bool> {
-    stencil: &'a mut StencilNodes<'b, N>,
-    /// Those of the places from `first` on; none with lone particles.
+struct Sums<'a, B, N, const D: usize, const IMPULSES: bool> {
+    /// By value, so that what is written to the nodes cannot change where they are.
+    stencil: StencilNodes<'a, N>,
+    /// None with lone particles.
     lanes: &'a mut [Lanes],
-    /// Place that counts as 0.
-    first: usize,
     at_once: bool,
     basis: PhantomData<B>,
 }
 
-impl<B: Basis<D>, N, const D: usize, const IMPULSES: bool> Sums<'_, '_, B, N, D, IMPULSES> {
+impl<B: Basis<D>, N, const D: usize, const IMPULSES: bool> Sums<'_, B, N, D, IMPULSES> {
     /// Whether nodes are added to at once: known when this is compiled unless nodes are added to side by side.
     #[inline(always)]
     fn at_once(&self) -> bool {
@@ -121,9 +118,7 @@ impl<B: Basis<D>, N, const D: usize, const IMPULSES: bool> Sums<'_, '_, B, N, D,
     }
 }
 
-impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink<D>
-    for Sums<'_, '_, B, N, D, IMPULSES>
-{
+impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink<D> for Sums<'_, B, N, D, IMPULSES> {
     #[inline(always)]
     fn add(&mut self, index: usize, deposit: &Deposit<D>) {
         if !self.at_once() {
@@ -134,9 +129,9 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
                 _ => self.update(index, |sum: &Packed<4>| sum.plus_deposit(deposit)),
             }
         } else if IMPULSES {
-            self.stencil.node(self.first + index).add_impulse(&deposit.vector);
+            self.stencil.node(index).add_impulse(&deposit.vector);
         } else {
-            self.stencil.node(self.first + index).add(deposit);
+            self.stencil.node(index).add(deposit);
         }
     }
 
@@ -153,9 +148,7 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
     #[inline(always)]
     fn add_rows(&mut self, first: usize, rows: &[Lanes; LANES]) {
         if self.at_once() {
-            let (numbers, first) = (self.stencil.numbers, self.first + first);
-            let mut nodes = self.stencil.of(&numbers[first..first + LANES]);
-            nodes.for_each_with(rows.iter(), |node, row| {
+            self.stencil.part(first, LANES).for_each_with(rows.iter(), |node, row| {
                 let deposit = Packed::<1>::read(std::slice::from_ref(row)).deposit();
                 if IMPULSES {
                     node.add_impulse(&deposit.vector);
@@ -179,8 +172,7 @@ impl<B: Basis<D>, N: GridNode<D>, const D: usize, const IMPULSES: bool> NodeSink
             } else {
                 &mut self.lanes[first * groups_of(D)..][..length * groups_of(D)]
             },
-            stencil: self.stencil,
-            first: self.first + first,
+            stencil: self.stencil.part(first, length),
             basis: PhantomData,
         }
     }

@@ -208,11 +208,17 @@ impl<N> StencilNodes<'_, N> {
         &mut self.nodes[self.numbers[index] as usize - self.first]
     }
 
-    /// Those of these nodes alone.
+    /// The same nodes.
     #[inline(always)]
-    pub(super) fn of<'c>(&'c mut self, numbers: &'c [u32]) -> StencilNodes<'c, N> {
+    pub(super) fn all(&mut self) -> StencilNodes<'_, N> {
+        self.part(0, self.numbers.len())
+    }
+
+    /// The nodes at `length` places from `first` on.
+    #[inline(always)]
+    pub(super) fn part(&mut self, first: usize, length: usize) -> StencilNodes<'_, N> {
         StencilNodes {
-            numbers,
+            numbers: &self.numbers[first..first + length],
             first: self.first,
             nodes: &mut *self.nodes,
         }

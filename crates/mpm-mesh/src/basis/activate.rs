@@ -1,5 +1,6 @@
 //! The rebuild, phases 3 and 4: active nodes and parts.
 
+use mpm_kernels::LANES;
 use rayon::prelude::*;
 
 use super::MeshBasis;
@@ -71,8 +72,8 @@ impl<const D: usize> MeshBasis<D> {
             for cell in first..first + count {
                 let ring = stencils.groups(cell_of(cell));
                 let (own, others) = nodes.split_at_mut(ring.len());
-                for (node, &vertex) in own.iter_mut().zip(ring) {
-                    *node = numbers[vertex as usize];
+                for (nodes, vertices) in own.as_chunks_mut::<LANES>().0.iter_mut().zip(ring.as_chunks().0) {
+                    *nodes = vertices.map(|vertex| numbers[vertex as usize]);
                 }
                 nodes = others;
             }

@@ -77,8 +77,8 @@ impl<const D: usize> MeshBasis<D> {
     pub(super) fn gradient_in_lanes(&self, member: Member<CellRing<D>, D>, nodes: &impl NodeField<D>) -> Matrix<D> {
         let gradients = self.gradients_of(member.particle).unwrap_or_default();
         let mut columns = [[Lanes::ZERO; LANES]; D];
-        for (group, gradient) in gradients.iter().take(member.cell.groups().len()).enumerate() {
-            let [_, v @ ..] = nodes.side_by_side(group);
+        let groups = gradients.iter().take(member.cell.groups().len());
+        for (gradient, [_, v @ ..]) in groups.zip(nodes.by_fours()) {
             for a in 0..D {
                 for c in 0..D {
                     columns[a][c] = gradient[a].mul_add(v[c], columns[a][c]);

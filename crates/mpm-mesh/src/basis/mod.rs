@@ -14,7 +14,7 @@ mod weights;
 use std::sync::OnceLock;
 
 use mpm_core::{Basis, CellSort, Member, MpmError, Schedule};
-use mpm_kernels::{Columns, Deposit, Entry, Interpolated, Lanes, NodeField, NodeSink, Wanted};
+use mpm_kernels::{Columns, Deposit, Entry, Interpolated, LANES, Lanes, NodeField, NodeSink, Wanted};
 use mpm_tensor::vector::{distance, subtract};
 
 use self::cell_ring::CellRing;
@@ -333,7 +333,13 @@ impl<const D: usize> Basis<D> for MeshBasis<D> {
 
     #[inline(always)]
     fn enter(&self, cell: usize, ring: &mut CellRing<D>) {
-        ring.collect(self.cell_nodes(cell, &mut Vec::new()), &self.active_positions);
+        ring.collect(self.cell_nodes(cell, &mut Vec::new()), &self.active_positions, |_| {});
+    }
+
+    #[inline(always)]
+    fn enter_by_fours(&self, cell: usize, ring: &mut CellRing<D>, node_count: usize, visit: impl FnMut([u32; LANES])) {
+        let positions = &self.active_positions[..node_count]; // no second check per node
+        ring.collect(self.cell_nodes(cell, &mut Vec::new()), positions, visit);
     }
 
     #[inline(always)]

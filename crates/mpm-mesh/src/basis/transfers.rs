@@ -68,8 +68,8 @@ impl<const D: usize> MeshBasis<D> {
         } else {
             [[Lanes::ZERO; D]; D]
         };
-        self.for_each_group(member, |first, sample, r| {
-            let weight = weight_of(sample, level, &slope, r);
+        for (group, (sample, r)) in self.groups(member).enumerate() {
+            let weight = weight_of(sample, level, &slope, &r);
             let mut sent = [Lanes::ZERO; LANES];
             sent[0] = weight * mass;
             for c in 0..D {
@@ -82,7 +82,7 @@ impl<const D: usize> MeshBasis<D> {
                 sent[c + 1] = weight * carried;
                 if EXACT {
                     for a in 0..D {
-                        sent[c + 1] = fluxes[a][c].mul_add(gradients[first / LANES][a], sent[c + 1]);
+                        sent[c + 1] = fluxes[a][c].mul_add(gradients[group][a], sent[c + 1]);
                     }
                 } else if pushes {
                     let mut pushed = push[c];
@@ -92,8 +92,8 @@ impl<const D: usize> MeshBasis<D> {
                     sent[c + 1] = sample.mul_add(pushed, sent[c + 1]);
                 }
             }
-            sink.add_rows(first, &Lanes::transpose(sent));
-        });
+            sink.add_rows(group * LANES, &Lanes::transpose(sent));
+        }
     }
 
     /// From m = Σ d′ v and m_a = Σ d′ v r_a: Σ w v = α m + Σ_a β_a m_a, and columns b of Σ v gᵀ = β_b m + Σ_a Γ_ab m_a.
@@ -110,9 +110,16 @@ impl<const D: usize> MeshBasis<D> {
         let with_moment = wanted.moment || by_moment;
         let (level, slope) = (Lanes::splat(fit.level), in_all_lanes(&fit.slope));
         let (mut zeroth, mut first, mut moment) = (Pack::ZERO, [Pack::ZERO; D], [Pack::ZERO; D]);
-        // One after the other, since all sums together do not fit into registers: the box keeps those of the first loop out of them in the second.
+        // One after the other, since all sums together do not fit into registers: the box keeps those of one loop out of them in the next.
         if by_gradient {
-            (zeroth, first) = black_box(self.moments::<true, true>(member, nodes, |sample, _| sample));
+            let of_samples = |sample, _: &[Lanes; D]| sample;
+            (zeroth, first) = if D > 2 {
+                let zeroth = self.moments::<true, false>(member, nodes, of_samples).0;
+                (zeroth, self.moments::<false, true>(member, nodes, of_samples).1)
+            } else {
+                self.moments::<true, true>(member, nodes, of_samples)
+            };
+            (zeroth, first) = black_box((zeroth, first));
         }
         let weight = |sample, r: &[Lanes; D]| weight_of(sample, level, &slope, r);
         match (by_gradient, with_moment) {
@@ -155,10 +162,9 @@ impl<const D: usize> MeshBasis<D> {
         factor: impl Fn(Lanes, &[Lanes; D]) -> Lanes,
     ) -> (Pack, [Pack; D]) {
         let (mut zeroth, mut first) = ([Lanes::ZERO; D], [[Lanes::ZERO; D]; D]);
-        self.for_each_group(member, |place, sample, r| {
-            let factor = factor(sample, r);
-            let [_, v @ ..] = nodes.side_by_side(place / LANES);
-            let mut factors = *r;
+        for ((sample, r), [_, v @ ..]) in self.groups(member).zip(nodes.by_fours()) {
+            let factor = factor(sample, &r);
+            let mut factors = r;
             for a in 0..D {
                 factors[a] *= factor;
             }
@@ -172,7 +178,7 @@ impl<const D: usize> MeshBasis<D> {
                     }
                 }
             }
-        });
+        }
         let mut packed = [Pack::ZERO; D];
         if FIRST {
             for a in 0..D {
@@ -182,16 +188,16 @@ impl<const D: usize> MeshBasis<D> {
         (if ZEROTH { pack_of_sums(&zeroth) } else { Pack::ZERO }, packed)
     }
 
-    /// Visit the weights of four nodes at a time, in order.
+    /// The weights of four nodes at a time, in order.
     #[inline(always)]
-    fn for_each_weight_group(&self, member: Member<CellRing<D>, D>, mut visit: impl FnMut(Lanes)) {
+    fn weights_by_fours(&self, member: Member<CellRing<D>, D>) -> impl Iterator<Item = Lanes> {
         let (fit, twice) = (&self.particles[member.particle].fit, self.floor(member.particle).twice);
         let (level, slope) = (Lanes::splat(fit.level), in_all_lanes(&fit.slope));
         let twice = Lanes::splat(twice);
-        self.for_each_group(member, |_, sample, r| {
-            let s = affine(level, &slope, r);
-            visit(s.fast_max(twice - s) * sample);
-        });
+        self.groups(member).map(move |(sample, r)| {
+            let s = affine(level, &slope, &r);
+            s.fast_max(twice - s) * sample
+        })
     }
 
     #[inline(always)]
@@ -203,23 +209,21 @@ impl<const D: usize> MeshBasis<D> {
     ) {
         let scalars = scalars.map(Lanes::splat);
         let mut sums = sums.map(|sums| sums.as_chunks_mut().0.iter_mut());
-        self.for_each_weight_group(member, |weight| {
+        for weight in self.weights_by_fours(member) {
             for (sums, scalar) in sums.iter_mut().zip(scalars) {
                 if let Some(sums) = sums.next() {
                     *sums = weight.mul_add(scalar, Lanes::new(*sums)).to_array();
                 }
             }
-        });
+        }
     }
 
     #[inline(always)]
     pub(super) fn interpolate_scalar_in_lanes(&self, member: Member<CellRing<D>, D>, nodes: &[f64]) -> f64 {
-        let (mut sum, mut nodes) = (Lanes::ZERO, nodes.as_chunks().0.iter());
-        self.for_each_weight_group(member, |weight| {
-            if let Some(&nodes) = nodes.next() {
-                sum = weight.mul_add(Lanes::new(nodes), sum);
-            }
-        });
+        let mut sum = Lanes::ZERO;
+        for (weight, &nodes) in self.weights_by_fours(member).zip(nodes.as_chunks().0) {
+            sum = weight.mul_add(Lanes::new(nodes), sum);
+        }
         sum.reduce_add()
     }
 }
@@ -243,7 +247,7 @@ fn affine<const D: usize>(level: Lanes, slope: &[Lanes; D], r: &[Lanes; D]) -> L
 /// The vector of the sums over the lanes of each component; the scalar has no meaning.
 #[inline(always)]
 fn pack_of_sums<const D: usize>(components: &[Lanes; D]) -> Pack {
-    let mut rows = [components[0]; LANES];
+    let mut rows = [Lanes::ZERO; LANES];
     rows[1..=D].copy_from_slice(components);
     Pack::read(&[sums(&rows)])
 }

@@ -117,7 +117,7 @@ impl<const D: usize> MeshBasis<D> {
         let (ring, joined) = (self.stencils.groups(cell), self.stencils.joined(cell));
         let vertices = self.mesh().cell(cell as usize);
         let fours = nodes.as_chunks().0.iter();
-        lanes.collect(vertices, ring, joined, fours.map(|four| side_by_side(four, positions)));
+        lanes.collect(vertices, ring, joined, fours.map(|&four| side_by_side(four, positions)));
     }
 
     /// Let a particle at `x` with the ring of a cell be solved next; where `x` is outside of it, with b of the nearest point.
@@ -143,26 +143,22 @@ impl<const D: usize> MeshBasis<D> {
         }
     }
 
-    /// Visit four nodes of a particle at a time: place of the first, d′ and offsets by component.
+    /// Four nodes of a particle at a time: d′ and offsets by component.
     #[inline(always)]
-    pub(super) fn for_each_group(
-        &self,
-        member: Member<CellRing<D>, D>,
-        mut visit: impl FnMut(usize, Lanes, &[Lanes; D]),
-    ) {
+    pub(super) fn groups(&self, member: Member<CellRing<D>, D>) -> impl Iterator<Item = (Lanes, [Lanes; D])> {
         let ring = member.cell.groups();
         let samples = &self.samples[self.particles[member.particle].samples as usize..][..ring.len()];
         let mut point = [Lanes::ZERO; D];
         for a in 0..D {
             point[a] = Lanes::splat(member.x[a]);
         }
-        for (group, (positions, &sample)) in ring.iter().zip(samples).enumerate() {
+        ring.iter().zip(samples).map(move |(positions, &sample)| {
             let mut r = [Lanes::ZERO; D];
             for a in 0..D {
                 r[a] = positions[a] - point[a];
             }
-            visit(group * LANES, sample, &r);
-        }
+            (sample, r)
+        })
     }
 
     /// All weights at a point, which need not be that of a particle; `None` outside the mesh.
