@@ -152,7 +152,7 @@ impl MeshError {
                 vertex: named,
                 vertex_count,
             } => format!(
-                "{} names {}, and there are {vertex_count}",
+                "{} names {}, and the number of vertices is {vertex_count}",
                 cell(*number),
                 vertex(*named as usize)
             ),

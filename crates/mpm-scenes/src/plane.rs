@@ -24,7 +24,7 @@ pub(crate) fn build<const D: usize>(
                 Side::Lower => (&room.lower, 1.0),
                 Side::Upper => (&room.upper, -1.0),
             };
-            let expected = format!("one of the {D} axes of the scene");
+            let expected = format!("an axis of the scene, whose dimension is {D}");
             within(&field("axis"), name, axis < D, &expected)?;
             let position = finite(&field("position"), wall.position.unwrap_or(border[axis]))?;
             let along = |value: f64| std::array::from_fn(|a| if a == axis { value } else { 0.0 });

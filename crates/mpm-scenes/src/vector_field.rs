@@ -61,7 +61,7 @@ pub(crate) fn build<const D: usize>(
         VectorField::Linear { centre, gradient } => {
             let mut rows = [[0.0; D]; D];
             let (name, square) = (format!("{field}.gradient"), gradient.len() == D);
-            within(&name, gradient, square, &format!("{D} rows"))?;
+            within(&name, gradient, square, "a row for each axis of the scene")?;
             for (row, list) in rows.iter_mut().zip(gradient) {
                 *row = vector_of("gradient", list)?;
             }

@@ -262,7 +262,8 @@ pub enum TargetError {
     },
     /// The columns are linearly dependent and the prior does not make up for it.
     #[error(
-        "{file}: the columns {columns} are linearly dependent, and without a proper prior on them the posterior is improper"
+        "{file}: linear dependence of {}, without a proper prior there, makes the posterior improper",
+        named(.columns)
     )]
     DataCollinear {
         /// The file.
@@ -272,7 +273,8 @@ pub enum TargetError {
     },
     /// A hyperplane separates the responses and the prior does not bound the coefficients.
     #[error(
-        "{file}: the columns {columns} separate the responses perfectly, and without a proper prior on them the posterior is improper"
+        "{file}: perfect separation of the responses by {}, without a proper prior there, makes the posterior improper",
+        named(.columns)
     )]
     DataSeparated {
         /// The file.
@@ -322,6 +324,12 @@ pub(crate) fn finite(field: &str, value: f64) -> Result<f64, TargetError> {
             value,
         })
     }
+}
+
+/// What columns are called, by their names.
+fn named(columns: &str) -> String {
+    let several = columns.contains(", ");
+    format!("the column{} {columns}", if several { "s" } else { "" })
 }
 
 /// `Ok(value)` for a finite number above zero.

@@ -255,7 +255,10 @@ fn weighed<const D: usize>(
         largest = largest.max(*weight);
     }
     if largest == f64::NEG_INFINITY {
-        return Err(failed(format!("all {} points have density zero", points.len())));
+        return Err(failed(format!(
+            "the density is zero at every point ({} in all)",
+            points.len()
+        )));
     }
     weights
         .iter_mut()

@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(text, "reference volumes: particle 0 has 0, must be positive and finite");
         assert_eq!(
             wrong(|given| given.velocities = Some(vec![0.0; 2])),
-            "velocities: the length is 2, 2 particles need 2 each"
+            "velocities: the length is 2, where the number of particles is 2 and each needs 2"
         );
         assert!(good.check_taken("svgd", true).is_ok());
         let refused = good.check_taken("iid", false).expect_err("refused").to_string();

@@ -239,7 +239,7 @@ pub enum SampleError {
         expected: &'static str,
     },
     /// A list of given particles does not fit their number.
-    #[error("{field}: the length is {length}, {particles} particles need {columns} each")]
+    #[error("{field}: the length is {length}, where the number of particles is {particles} and each needs {columns}")]
     GivenLength {
         /// What is given.
         field: &'static str,

@@ -17,6 +17,7 @@ use super::manifest::{self, Manifest};
 use super::results::{self, ResultsFile};
 use super::row::RunRow;
 use super::yardstick::CurrentYardstick;
+use crate::plots::page::counted;
 use crate::plots::results::Row;
 use crate::progress::Bar;
 use crate::provenance::Provenance;
@@ -75,8 +76,9 @@ fn in_threads<T: Send>(
     work: impl FnOnce() -> Result<T, CommandError> + Send,
 ) -> Result<T, CommandError> {
     let Some(threads) = threads else { return work() };
-    let refused =
-        |error: ThreadPoolBuildError| CommandError::Refused(format!("cannot start {threads} threads: {error}"));
+    let refused = |error: ThreadPoolBuildError| {
+        CommandError::Refused(format!("cannot start {}: {error}", counted(threads, "threads")))
+    };
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(refused)?.install(work)
 }
@@ -148,8 +150,8 @@ fn run_missing<S: Study>(
     };
     let result = missing.into_iter().try_for_each(&mut run);
     progress.clear();
-    let all = cases.len();
-    let hint = format!(": {kept} of {all} cases kept; the same command resumes with the next one");
+    let all = counted(cases.len(), "cases");
+    let hint = format!(": {kept} of {all} kept; the same command resumes with the next one");
     result.map_err(|error| match error.is_interruption() {
         true => CommandError::Interrupted(hint),
         false => error,
@@ -180,9 +182,10 @@ fn provenance(manifest: &Manifest, rows: usize, cases: usize) -> String {
     let [commit, cpu] = [&first.commit, &first.cpu].map(|known| known.as_deref().unwrap_or("unknown"));
     let dirty = first.dirty.filter(|dirty| *dirty);
     let dirty = dirty.map_or("", |_| " with uncommitted changes");
-    let (rustc, threads, started, hash) = (&first.rustc, first.threads, &first.started, &manifest.config_hash);
+    let (rustc, started, hash) = (&first.rustc, &first.started, &manifest.config_hash);
+    let [cases, threads] = [(cases, "cases"), (first.threads, "threads")].map(|(count, many)| counted(count, many));
     let mut text = format!(
-        "{rows} of {cases} cases. Commit {commit}{dirty}, {rustc}, {threads} threads on {cpu}, started {started}, configuration {hash}."
+        "{rows} of {cases}. Commit {commit}{dirty}, {rustc}, {threads} on {cpu}, started {started}, configuration {hash}."
     );
     if !manifest.is_uniform() {
         text.push_str(

@@ -256,7 +256,7 @@ fn files_of_particles_that_make_no_sense_are_named() {
         m.csv | 1\n-1\n | --start start.csv --masses m.csv | --masses | particle 1 | -1
         m.csv | 1\n0\n | --start start.csv --volumes m.csv | --volumes | particle 1 | 0
         m.csv | 1\n1\n1\n | --start start.csv --masses m.csv | --masses | 3 rows | 2
-        v.csv | 1\n1\n | --start start.csv --velocities v.csv | --velocities | 1 columns | 2
+        v.csv | 1\n1\n | --start start.csv --velocities v.csv | --velocities | 1 column, | 2
         v.csv | 0,0\ninf,0\n | --start start.csv --velocities v.csv | --velocities | inf
         s.csv | 0,0\n1,1\n | --start start.csv --volumes start-density | --volumes | start-density
         s.csv | 0,0\n1,1\n | --start start.csv --start-law gaussian | --start-law | --start

@@ -13,6 +13,7 @@ use crate::full_order::SceneDocument;
 use crate::manifold::{Manifold, Pod};
 use crate::model::Model;
 use crate::snapshots::{Body, Snapshots};
+use crate::words::in_number;
 
 /// Read once, before the runs.
 pub(super) struct AtHand<'a, const D: usize> {
@@ -55,8 +56,8 @@ impl<'a, const D: usize> AtHand<'a, D> {
         if let Some(snapshots) = training.as_ref().filter(|snapshots| snapshots.points() != points) {
             return Err(ExperimentError::OtherData {
                 file: directory.join(names::TRAINING_DATA).display().to_string(),
-                found: format!("{} points", snapshots.points()),
-                expected: format!("{points} points"),
+                found: in_number(snapshots.points(), "point"),
+                expected: in_number(points, "point"),
             });
         }
         let refused = |error| experiment.field("run.manifold", format!("\"linear\": {error}"));

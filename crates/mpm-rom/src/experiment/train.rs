@@ -10,6 +10,7 @@ use super::variants::directory_of;
 use super::{Experiment, ExperimentError};
 use crate::full_order::{self, FullOrderError, Kept};
 use crate::snapshots::Snapshots;
+use crate::words::in_number;
 
 /// Runs the scene for all training cases, trains the network and its variants, and writes the models. What the directory holds of it already is not done again.
 ///
@@ -97,7 +98,7 @@ impl Experiment {
                 format!("parameters {:?}", body.parameters),
                 format!("parameters {:?}", self.parameters),
             )),
-            Some((in_number(runs.len()), in_number(self.cases.train.len()))),
+            Some((in_number(runs.len(), "run"), in_number(self.cases.train.len(), "run"))),
             differs.map(|(run, (found, expected))| (format!("run {run} of {found:?}"), format!("{expected:?}"))),
         ];
         match pairs.into_iter().flatten().find(|(found, expected)| found != expected) {
@@ -109,8 +110,4 @@ impl Experiment {
             }),
         }
     }
-}
-
-fn in_number(runs: usize) -> String {
-    format!("{runs} {}", if runs == 1 { "run" } else { "runs" })
 }

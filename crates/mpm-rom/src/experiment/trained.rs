@@ -11,6 +11,7 @@ use crate::full_order::Recording;
 use crate::model::Model;
 use crate::snapshots::{Body, Snapshots};
 use crate::training::{EpochReport, Trainer, Training};
+use crate::words::in_number;
 
 /// Watches an experiment and may stop its training.
 pub trait Watch {
@@ -148,8 +149,8 @@ pub(super) fn models_for<const D: usize>(
         if model.summary().scene != scene.title || trained_on != points {
             return Err(ExperimentError::OtherScene {
                 file: file.display().to_string(),
-                found: format!("{}, {trained_on} points", model.summary().scene),
-                expected: format!("{}, {points} points", scene.title),
+                found: format!("{}, {}", model.summary().scene, in_number(trained_on, "point")),
+                expected: format!("{}, {}", scene.title, in_number(points, "point")),
             });
         }
         Ok((name.to_owned(), model))

@@ -1,6 +1,7 @@
 use mpm_scenes::{SceneError, SimulationError};
 
 use crate::snapshots::SnapshotsError;
+use crate::words::in_number;
 
 /// Why there is no data.
 #[derive(Debug, thiserror::Error)]
@@ -10,7 +11,7 @@ pub enum FullOrderError {
     #[error("no runs")]
     NoRuns,
     /// A stop was asked for between two runs.
-    #[error("stopped after {runs} {}", if *.runs == 1 { "run" } else { "runs" })]
+    #[error("stopped after {}", in_number(*.runs, "run"))]
     Stopped {
         /// Runs done.
         runs: usize,

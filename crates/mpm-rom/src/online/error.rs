@@ -2,6 +2,7 @@ use mpm_scenes::SceneError;
 
 use crate::full_order::FullOrderError;
 use crate::least_squares::LeastSquaresError;
+use crate::words::in_number;
 
 /// Why a reduced run cannot begin or go on.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +50,8 @@ pub enum OnlineError {
     },
     /// Sample points that are none, or twice the same.
     #[error(
-        "sample point {number} of {points} material points: each must be one of them, and named once, in ascending order"
+        "sample point {number} of {}: each must be one of them, and named once, in ascending order",
+        in_number(*.points, "material point")
     )]
     Samples {
         /// The first number that is wrong.
@@ -69,7 +71,9 @@ pub enum OnlineError {
     },
     /// Sample points cannot be chosen on what there is.
     #[error(
-        "no sample points can be chosen: of {readings} steps from states of training runs none has velocities at {points} points and Jacobians that tell all coordinates apart"
+        "no sample points can be chosen: of {} from states of training runs none has velocities at {} and Jacobians that tell all coordinates apart",
+        in_number(*.readings, "step"),
+        in_number(*.points, "point")
     )]
     Readings {
         /// Steps that were read.
@@ -78,7 +82,7 @@ pub enum OnlineError {
         points: usize,
     },
     /// More sample points than material points.
-    #[error("{found} sample points of {points} material points")]
+    #[error("{} of {}", in_number(*.found, "sample point"), in_number(*.points, "material point"))]
     TooManySamples {
         /// |𝒫|.
         found: usize,

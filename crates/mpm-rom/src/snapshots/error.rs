@@ -23,7 +23,7 @@ pub enum SnapshotsError {
         expected: &'static str,
     },
     /// A list has another length than the body asks for.
-    #[error("{place}{found} {field}, not {expected}")]
+    #[error("{place}the number of {field} is {found}, not {expected}")]
     Length {
         /// Where it stands.
         place: Place,

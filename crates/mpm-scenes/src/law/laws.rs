@@ -16,7 +16,7 @@ pub struct Laws<const D: usize> {
 
 impl<const D: usize> Debug for Laws<D> {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} laws", self.table.len())
+        formatter.debug_tuple("Laws").field(&self.table.len()).finish()
     }
 }
 

@@ -5,13 +5,23 @@ use std::path::Path;
 use mpm_scenes::{Population, Scene, SceneFault};
 
 use super::refusal::assert_refused;
-use super::scenes::BLOCK;
+use super::scenes::{BAR, BLOCK};
 
 const STRIP: &str = include_str!("../data/strip.toml");
 
 #[test]
 fn errors_name_the_file_the_field_and_the_value() {
     assert_refused(BLOCK, "block.toml", include_str!("../data/block_refused.toml"));
+}
+
+#[test]
+fn one_axis_is_counted_as_one() {
+    let text = BAR.replace("axis = \"x\"", "axis = \"y\"");
+    let message = Scene::parse(&text, Path::new("bar.toml"))
+        .expect_err("no y")
+        .to_string();
+    let expected = "walls[0].axis = \"y\": must be an axis of the scene, whose dimension is 1";
+    assert!(message.contains(expected), "{message}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod within;
 #[path = "within_left_out.rs"]
 mod within;
 
+use parvi_plot::page::counted;
 use parvi_plot::{
     AxisKind, DensityPlot, LineSeries, MultiplesPanel, MultiplesPlot, PlotError, PointCloud, StripPanel, StripPlot,
     corner, histogram, multiples, strip,
@@ -92,7 +93,7 @@ impl Subject<'_> {
 
     fn title(&self) -> String {
         let (target, count) = (self.target, self.outcome.particles.len());
-        format!("{target}: {count} particles of {}", self.method)
+        format!("{target}: {} of {}", counted(count, "particles"), self.method)
     }
 
     fn histogram(&self) -> Result<String, PlotError> {

@@ -55,7 +55,7 @@ pub fn percent(part: usize, whole: usize) -> Option<String> {
 }
 
 /// Words for several, and for one.
-pub(super) const COUNTED: [(&str, &str); 8] = [
+pub(super) const COUNTED: [(&str, &str); 13] = [
     ("seeds", "seed"),
     ("runs", "run"),
     ("meshes", "mesh"),
@@ -64,6 +64,11 @@ pub(super) const COUNTED: [(&str, &str); 8] = [
     ("threads", "thread"),
     ("directions", "direction"),
     ("points", "point"),
+    ("particles", "particle"),
+    ("sample points", "sample point"),
+    ("cases", "case"),
+    ("columns", "column"),
+    ("rows", "row"),
 ];
 
 /// So many of what a word for several says: `1 run`, `2 runs`.

@@ -195,6 +195,11 @@ fn one_is_counted_as_one_and_digits_tell_values_apart() {
         (counted(1, "meshes"), counted(2, "meshes")),
         ("1 mesh".to_owned(), "2 meshes".to_owned())
     );
+    let several = ["particles", "sample points", "cases", "columns", "rows"];
+    assert_eq!(
+        several.map(|many| counted(1, many)),
+        ["1 particle", "1 sample point", "1 case", "1 column", "1 row"]
+    );
     let digits = telling_digits(&[12.5012, 12.5034, 12.5034]);
     assert_eq!((digits, number_of(12.5012, digits)), (5, "12.501".to_owned()));
     assert_eq!(telling_digits(&[1.0, 1.0 + 1e-12, 2.0]), 3);

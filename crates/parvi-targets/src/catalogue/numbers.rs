@@ -11,7 +11,7 @@ pub(crate) fn rows<const K: usize>(file: &str, text: &str) -> Result<Vec<[f64; K
     let read = |line: &str| {
         row(line).ok_or_else(|| TargetError::DataUnreadable {
             file: file.to_owned(),
-            reason: format!("'{line}' is not {K} numbers"),
+            reason: format!("'{line}' is no row of length {K}"),
         })
     };
     text.lines().skip(1).map(read).collect()

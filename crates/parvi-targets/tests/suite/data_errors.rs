@@ -170,6 +170,15 @@ fn separated_responses_need_a_proper_prior() {
         matches!(&error, TargetError::DataSeparated { columns, .. } if columns.contains("a")),
         "{error}"
     );
+    let told = |columns: &str| TargetError::DataSeparated {
+        file: "some.csv".to_owned(),
+        columns: columns.to_owned(),
+    };
+    let [one, two] = ["a", "a, b"].map(|columns| told(columns).to_string());
+    assert!(
+        one.contains(" by the column a,") && two.contains(" by the columns a, b,"),
+        "{one}; {two}"
+    );
     assert!(posterior(separated, [10.0; 3]).is_ok());
     // A tie on the boundary: separated all the same, the other coefficient settles.
     let touching = "y,a,b\n0,1,3\n0,2,1\n0,3,4\n1,3,1\n1,4,4\n1,7,2\n1,3,3\n0,3,2\n";

@@ -53,7 +53,7 @@ pub enum Doubt {
         error: f64,
     },
     /// The score is not finite where log p is; only searches have followed it.
-    #[error("the score is NaN or infinite at {points} of {of} points of the pool at which log p is finite")]
+    #[error("the score is NaN or infinite where log p is finite, at points of the pool ({points} of {of})")]
     NoScore {
         /// Points of the pool at which it is not.
         points: usize,
@@ -165,7 +165,7 @@ pub enum Doubt {
     },
     /// Nothing has kept the particles where the target has mass: the score does not lead there.
     #[error(
-        "log p is -inf or no number at {particles} of {of} particles: where it is, the score does not lead to the mass"
+        "log p is -inf or no number at particles ({particles} of {of}): where it is, the score does not lead to the mass"
     )]
     Outside {
         /// Particles at which log p is −∞, +∞ or NaN.

@@ -7,6 +7,7 @@ use mpm_rom::training::EpochReport;
 use parvi_files::AtomicFile;
 
 use crate::CommandError;
+use crate::plots::page::counted;
 use crate::plots::results::{Row, Rows};
 use crate::plots::{Axis, AxisKind, LineSeries, MultiplesPanel, MultiplesPlot, multiples};
 
@@ -86,8 +87,8 @@ pub fn coordinates(
         let label = name.replace('x', "x̂");
         MultiplesPanel::over(label, AxisKind::Linear, shown.iter().map(line))
     };
-    let (title, samples) = (&experiment.title, shown[0].0.value("samples"));
-    let title = format!("{title}: coordinates, {samples} sample points");
+    let samples = counted(shown[0].0.count("samples").unwrap_or(0), "sample points");
+    let title = format!("{}: coordinates, {samples}", experiment.title);
     let plot = MultiplesPlot::traces(title, "time (s)", known.map(panel));
     Ok(AtomicFile::write(path, multiples(&plot)?)?)
 }

@@ -11,6 +11,7 @@ use parvi_targets::{CatalogueTarget, Gaussian};
 use super::Arguments;
 use crate::CommandError;
 use crate::dispatch::{in_dimension, on_target};
+use crate::plots::page::counted;
 
 /// Reads the files, and draws from the start's law where it has a name or a covariance; `names` are those of the target's coordinates, one for each dimension.
 ///
@@ -62,7 +63,8 @@ fn read(
     let refused = |reason: String| OptionError::new(flag, format!("{}{reason}", path.display())).into();
     for (found, wanted, what) in [(table.columns, columns, "columns"), (table.rows(), rows, "rows")] {
         if found != wanted {
-            return Err(refused(format!(" has {found} {what}, must have {wanted}")));
+            let found = counted(found, what);
+            return Err(refused(format!(" has {found}, must have {wanted}")));
         }
     }
     if table.header != names && sorted(&table.header) == sorted(names) {

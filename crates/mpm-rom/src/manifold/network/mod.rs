@@ -44,7 +44,7 @@ pub enum NetworkError {
     #[error("{0}: every size must be at least 1")]
     Shape(String),
     /// The scaling is not of D axes, or not finite and positive.
-    #[error("{0:?} does not scale {1} axes")]
+    #[error("{0:?} is no scaling of dimension {1}")]
     Scaling(Scaling, usize),
     /// There are more or fewer parameters than weights and biases.
     #[error("the number of parameters is {found}, that of weights and biases {expected}")]

@@ -63,7 +63,7 @@ fn check_mesh<const D: usize>(mesh: &MeshTable) -> Result<(), SceneFault> {
         (None, Some(shape)) => {
             positive("mesh.generate.size", shape.size())?;
             let dimension = shape.dimension();
-            let expected = format!("a mesh of {D} dimensions, as the scene has");
+            let expected = format!("a mesh of dimension {D}, that of the scene");
             within("mesh.generate", shape, dimension == D, &expected)?;
             if let MeshShapeTable::Ring { inner, outer, .. } = shape {
                 positive("mesh.generate.inner", *inner)?;
