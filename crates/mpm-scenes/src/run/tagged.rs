@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use mpm_core::{Contact, HeldSurface, NodeForces, Obstacle, SignedDistance};
+use mpm_mesh::BoundaryFacet;
 use mpm_tensor::vector as algebra;
 
 use super::dispatch;
@@ -11,7 +12,7 @@ use super::held_facets::{behind, held, vertex_normals};
 use super::tractions::Tractions;
 use crate::background::{Background, facet_keys, named_facets, smooth_parts};
 use crate::population::Population;
-use crate::scene::{FacetCondition, FacetTable, ON_MESH, Scene, amplitude};
+use crate::scene::{FacetCondition, FacetTable, ON_MESH, PressureTable, Scene, amplitude};
 use crate::shape::{MeshOutside, Shape};
 use crate::values::within;
 use crate::{SceneFault, facet_traction, vector_field};
@@ -71,7 +72,7 @@ pub(super) struct Tagged<const D: usize> {
 /// The conditions of `[[facets]]`, for these particles.
 ///
 /// # Errors
-/// [`SceneFault::Value`] for a group that the mesh does not have, for a traction on facets that no body touches, and for tables that [`Scene::read`] refuses.
+/// [`SceneFault::Value`] for a group that the mesh does not have, for a traction on facets that no body touches, for a fluid that is below those that some do, and for tables that [`Scene::read`] refuses.
 pub(super) fn build<const D: usize>(
     scene: &Scene,
     background: &Background<D>,
@@ -160,16 +161,23 @@ pub(super) fn build<const D: usize>(
             FacetCondition::Traction => {
                 let traction = facet_traction::build::<D>(&field, table, scene)?;
                 let filled = filled.get_or_insert_with(|| Filled::new(inner, population));
-                let mut loaded = named_facets(inner, facets)
-                    .filter(|facet| filled.is_touched(facet))
-                    .peekable();
+                let position = |vertex: u32| &inner.vertices()[vertex as usize];
+                let at_vertices = |facet: BoundaryFacet<D>| {
+                    let at = |vertex| traction(position(vertex), &facet.normal);
+                    (facet, facet.vertices.map(at))
+                };
+                let touched = named_facets(inner, facets).filter(|facet| filled.is_touched(facet));
+                let loaded: Vec<_> = touched.map(at_vertices).collect();
                 let expected = "a group with a facet that a body touches: the traction acts on none";
-                within(&field("group"), &table.group, loaded.peek().is_some(), expected)?;
+                within(&field("group"), &table.group, !loaded.is_empty(), expected)?;
+                let is_fluid = matches!(table.pressure, Some(PressureTable::Field(_)));
+                let acts = loaded.iter().flat_map(|(_, at)| at).any(|t| *t != [0.0; D]);
+                let expected =
+                    "that of a fluid whose surface is above a facet of the group that a body touches: it acts on none";
+                within(&field("pressure"), &table.pressure, !is_fluid || acts, expected)?;
                 let amplitude = amplitude(&field, table.ramp, table.amplitude.as_ref())?;
-                for facet in loaded {
-                    let position = |vertex: u32| &inner.vertices()[vertex as usize];
-                    let at_vertices = facet.vertices.map(|vertex| traction(position(vertex), &facet.normal));
-                    tractions.add(&amplitude, &facet, &at_vertices);
+                for (facet, at_vertices) in &loaded {
+                    tractions.add(&amplitude, facet, at_vertices);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mpm_scenes::{Scene, Snapshot, frames};
+use mpm_scenes::{Scene, Snapshot, frames, simulate};
 
 /// An undamped body under a pressure of E / 50 on all of its boundary, which grows over two seconds.
 const PRESSED: &str = r#"
@@ -200,21 +200,48 @@ fn a_beam_between_couples_bends() {
     assert!(stress < 0.04 && curvature.abs() < 0.01, "{stress}, {curvature}");
 }
 
-/// It stays where it is, under the pressure of the fluid.
-#[test]
-fn a_block_in_a_fluid_of_its_density_floats() {
-    let centre = |snapshot: &Snapshot| snapshot.positions.chunks(2).map(|x| x[1]).sum::<f64>() / snapshot.len() as f64;
-    let water = "{ kind = \"hydrostatic\", density = 2.0, surface = [0.0, 1.0] }";
+/// A block in a fluid of its density, whose surface is at this height.
+fn in_a_fluid(surface: f64) -> String {
+    let water = format!("{{ kind = \"hydrostatic\", density = 2.0, surface = [0.0, {surface:?}] }}");
     let facets = format!("{{ group = \"boundary\", condition = \"traction\", pressure = {water}, ramp = 0.5 }}");
-    let text = loaded(&facets, "end = 1.0")
+    loaded(&facets, "end = 1.0")
         .replace("density = 1.0", "density = 2.0")
         .replace(
             "dimension = 2",
             "dimension = 2\ngravity = [0.0, -10.0]\ngravity_ramp = 0.5",
         )
         .replace("KERNEL", "")
-        .replace("FILL", "particles_per_axis = 2");
-    let [start, end] = run(&text);
+        .replace("FILL", "particles_per_axis = 2")
+}
+
+#[test]
+fn a_fluid_that_reaches_no_facet_is_refused() {
+    let begun = |surface| {
+        let scene = Scene::parse(&in_a_fluid(surface), Path::new("block.toml")).expect("a scene");
+        let stop = &mut |_| std::ops::ControlFlow::Break(());
+        let directory = tempfile::tempdir().expect("a directory");
+        simulate(&scene, directory.path(), stop).map_err(|error| error.to_string())
+    };
+    for surface in [-0.5, -3.0] {
+        let message = begun(surface).expect_err("refused");
+        let expected = "block.toml: facets[0].pressure = { kind = \"hydrostatic\", ";
+        assert!(message.contains(expected), "{message}");
+        assert!(
+            message.contains("must be that of a fluid whose surface is above"),
+            "{message}"
+        );
+    }
+    // Half under, and a corner.
+    for surface in [0.0, -0.4] {
+        assert!(begun(surface).is_ok());
+    }
+}
+
+/// It stays where it is, under the pressure of the fluid.
+#[test]
+fn a_block_in_a_fluid_of_its_density_floats() {
+    let centre = |snapshot: &Snapshot| snapshot.positions.chunks(2).map(|x| x[1]).sum::<f64>() / snapshot.len() as f64;
+    let [start, end] = run(&in_a_fluid(1.0));
     let rise = centre(&end) - centre(&start);
     let places = start.positions.chunks(2).zip(end.stresses.chunks(4));
     let worst = places.fold(0.0, |worst: f64, (at, stress)| {
