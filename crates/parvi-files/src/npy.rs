@@ -27,7 +27,7 @@ pub fn array(shape: &[u64], values: &[f64]) -> io::Result<Vec<u8>> {
 /// What is wrong with it, in words.
 pub fn table(path: &Path) -> Result<NumberTable, String> {
     let in_words = |error: io::Error| error.to_string();
-    let file = File::open(path).map_err(in_words)?;
+    let file = File::open(path).map_err(|error| format!("cannot be read: {error}"))?;
     let array = NpyFile::new(BufReader::new(file)).map_err(in_words)?;
     let columns = match *array.shape() {
         [_] => 1,

@@ -68,7 +68,10 @@ impl NumberTable {
 }
 
 fn in_words(error: csv::Error) -> String {
-    error.to_string()
+    match error.is_io_error() {
+        true => format!("cannot be read: {error}"),
+        false => error.to_string(),
+    }
 }
 
 #[cfg(test)]

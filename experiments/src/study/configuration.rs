@@ -40,7 +40,8 @@ impl Configuration {
     /// # Errors
     /// [`CommandError::Files`] if it cannot be read, [`CommandError::Config`] if it is no TOML or has no `kind`.
     pub fn read(path: &Path) -> Result<Self, CommandError> {
-        let text = fs::read_to_string(path).map_err(|source| CommandError::file("read", path, source))?;
+        let bytes = fs::read(path).map_err(|source| CommandError::file("read", path, source))?;
+        let text = mpm_document::text(bytes, path)?;
         Self::from_text(path.display().to_string(), text)
     }
 
@@ -203,6 +204,18 @@ mod tests {
             .and_then(|configuration| configuration.parse::<Example>())
             .unwrap_err()
             .to_string()
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_reported_where_they_are() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("c.toml");
+        fs::write(&file, b"kind = \"\xff\"\n").unwrap();
+        let message = Configuration::read(&file).unwrap_err().to_string();
+        assert!(
+            message.contains("c.toml, line 1, column 9: what follows is not UTF-8"),
+            "{message}"
+        );
     }
 
     #[test]

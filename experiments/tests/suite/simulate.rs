@@ -158,7 +158,10 @@ fn what_cannot_be_reported_is_named() {
         assert_refused(&parvi(root.path(), "report out"), &[expected]);
     }
     std::fs::remove_file(&series).unwrap();
-    assert_refused(&parvi(root.path(), "report out"), &["series.csv: No such file"]);
+    assert_refused(
+        &parvi(root.path(), "report out"),
+        &["cannot read out/series.csv: No such file"],
+    );
     assert_refused(&parvi(root.path(), "report none"), &["cannot read none: No such file"]);
     assert_refused(
         &parvi(root.path(), "report scene.toml"),

@@ -44,7 +44,7 @@ pub enum MshError {
         expected: &'static str,
     },
     /// Something else stands where something should.
-    #[error("{place}: `{found}` where {expected} should be")]
+    #[error("{place}: `{found}` stands where {expected} should be")]
     Malformed {
         /// Where.
         place: Place,

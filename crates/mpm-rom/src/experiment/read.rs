@@ -25,8 +25,8 @@ impl Experiment {
             Some(more) => {
                 let other = more.other_file(file)?;
                 let refused = |message| ExperimentError::field(file, TRAINED_AS, message);
-                let text = std::fs::read_to_string(&other)
-                    .map_err(|source| refused(format!("{}: {source}", other.display())))?;
+                let unreadable = |source| refused(format!("cannot read {}: {source}", other.display()));
+                let text = mpm_document::text(std::fs::read(&other).map_err(unreadable)?, &other)?;
                 if MoreRuns::parse(&text, &other)?.is_some() {
                     let message = format!("{} names a further file itself", more.trained_as.display());
                     return Err(refused(message));

@@ -20,11 +20,15 @@ impl SceneDocument {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`FullOrderError::Unreadable`], and as [`parse`](Self::parse).
+    /// [`FullOrderError::Unreadable`], and as [`parse`](Self::parse); what is no text is no TOML.
     pub fn read(file: &Path) -> Result<Self, FullOrderError> {
-        let text = std::fs::read_to_string(file).map_err(|source| FullOrderError::Unreadable {
+        let bytes = std::fs::read(file).map_err(|source| FullOrderError::Unreadable {
             file: file.display().to_string(),
             source,
+        })?;
+        let text = mpm_document::text(bytes, file).map_err(|error| SceneError {
+            file: file.to_owned(),
+            fault: Box::new(error.into()),
         })?;
         Self::parse(&text, file)
     }

@@ -27,7 +27,7 @@ pub enum FullOrderError {
         source: Box<Self>,
     },
     /// The file cannot be read.
-    #[error("{file}: {source}")]
+    #[error("cannot read {file}: {source}")]
     Unreadable {
         /// The scene's file.
         file: String,

@@ -182,3 +182,19 @@ fn frames_between_those_of_the_scene_are_kept_where_the_body_moves() {
         "{error}"
     );
 }
+
+#[test]
+fn a_scene_that_cannot_be_read_is_named() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let file = directory.path().join("scene.toml");
+    let message = || SceneDocument::read(&file).expect_err("no scene").to_string();
+    let missing = message();
+    assert!(
+        missing.starts_with(&format!("cannot read {}: ", file.display())),
+        "{missing}"
+    );
+    std::fs::write(&file, b"title = \"\xff\"\n").expect("written");
+    let binary = message();
+    let expected = format!("{}, line 1, column 10: what follows is not UTF-8", file.display());
+    assert!(binary.starts_with(&expected), "{binary}");
+}

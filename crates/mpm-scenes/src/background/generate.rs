@@ -93,8 +93,11 @@ fn read<const D: usize>(scene: &Scene, table: &MeshTable) -> Result<(NamedMesh<D
         .file
         .parent()
         .map_or_else(|| file.clone(), |directory| directory.join(file));
-    let bytes = std::fs::read(&path)
-        .map_err(|error| SceneFault::value("mesh.file", file, format!("a file that can be read: {error}")))?;
+    let unreadable = |error| {
+        let expected = format!("a file that can be read, and {} cannot: {error}", path.display());
+        SceneFault::value("mesh.file", file, expected)
+    };
+    let bytes = std::fs::read(&path).map_err(unreadable)?;
     let named = read_named_msh(&bytes)
         .map_err(|error| SceneFault::value("mesh.file", file, format!("a mesh of the scene: {error}")))?;
     Ok((named, fingerprint(&bytes)))

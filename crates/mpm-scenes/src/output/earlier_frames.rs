@@ -9,7 +9,7 @@ use crate::SimulationError;
 /// # Errors
 /// [`SimulationError::File`] for a directory or a file of it that the system refuses; a directory that does not exist has no frames.
 pub fn remove_frames(directory: &Path) -> Result<(), SimulationError> {
-    let refused = |error| SimulationError::file(directory, error);
+    let refused = |error| SimulationError::file("read", directory, error);
     let entries = match std::fs::read_dir(directory) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
         entries => entries.map_err(refused)?,
@@ -33,7 +33,7 @@ pub fn remove_frames(directory: &Path) -> Result<(), SimulationError> {
 /// [`SimulationError::File`].
 pub fn remove_file(path: &Path) -> Result<(), SimulationError> {
     match std::fs::remove_file(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(SimulationError::file(path, error)),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(SimulationError::file("remove", path, error)),
         _ => Ok(()),
     }
 }

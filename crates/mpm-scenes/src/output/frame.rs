@@ -27,7 +27,7 @@ impl Frame {
     /// # Errors
     /// [`SimulationError::File`], also for what is no frame.
     pub fn read(path: &Path) -> Result<Self, SimulationError> {
-        let bytes = std::fs::read(path).map_err(|error| SimulationError::file(path, error))?;
+        let bytes = std::fs::read(path).map_err(|error| SimulationError::file("read", path, error))?;
         Self::of(path, bytes).ok_or_else(|| refused(path, "it has no appended data"))
     }
 
@@ -84,7 +84,7 @@ fn find(bytes: &[u8], mark: &[u8]) -> Option<usize> {
 }
 
 fn refused(path: &Path, reason: &str) -> SimulationError {
-    SimulationError::file(path, std::io::Error::other(reason.to_owned()))
+    SimulationError::file("read", path, std::io::Error::other(reason.to_owned()))
 }
 
 #[cfg(test)]

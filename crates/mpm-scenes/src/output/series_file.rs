@@ -44,7 +44,11 @@ impl SeriesFile {
         }
         if series.columns() != columns || series.rows().len() < rows {
             let reason = "it is not the series of the checkpoint; remove the checkpoint to begin again";
-            return Err(SimulationError::file(&path, std::io::Error::other(reason)));
+            return Err(SimulationError::file(
+                "go on with",
+                &path,
+                std::io::Error::other(reason),
+            ));
         }
         Self::with(path, series)
     }
@@ -56,7 +60,7 @@ impl SeriesFile {
         }
         write_whole(&path, text.as_bytes())?;
         let file = OpenOptions::new().append(true).open(&path);
-        let file = file.map_err(|error| SimulationError::file(&path, error))?;
+        let file = file.map_err(|error| SimulationError::file("write", &path, error))?;
         Ok(Self { series, path, file })
     }
 
@@ -66,7 +70,7 @@ impl SeriesFile {
     /// [`SimulationError::File`].
     pub fn push(&mut self, row: Vec<f64>) -> Result<(), SimulationError> {
         let written = self.file.write_all(line(&row).as_bytes());
-        written.map_err(|error| SimulationError::file(&self.path, error))?;
+        written.map_err(|error| SimulationError::file("write", &self.path, error))?;
         self.series.push(row);
         Ok(())
     }
@@ -92,7 +96,7 @@ pub fn read_series(directory: &Path) -> Result<Series, SimulationError> {
 
 /// The first rows of a series, at most so many.
 fn read_rows(path: &Path, most: usize) -> Result<Series, SimulationError> {
-    let text = std::fs::read_to_string(path).map_err(|error| SimulationError::file(path, error))?;
+    let text = std::fs::read_to_string(path).map_err(|error| SimulationError::file("read", path, error))?;
     let refused = |line: usize, message: String| SimulationError::Series {
         path: path.to_owned(),
         line,

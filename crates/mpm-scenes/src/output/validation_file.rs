@@ -24,9 +24,10 @@ pub fn write_validation(directory: &Path, rows: &[ValidationRow]) -> Result<(), 
     });
     for line in std::iter::once(header).chain(lines) {
         let written = writer.write_record(&line);
-        written.map_err(|error| SimulationError::file(&path, std::io::Error::other(error)))?;
+        written.map_err(|error| SimulationError::file("write", &path, std::io::Error::other(error)))?;
     }
     let content = writer.into_inner();
-    let content = content.map_err(|error| SimulationError::file(&path, std::io::Error::other(error.to_string())))?;
+    let content =
+        content.map_err(|error| SimulationError::file("write", &path, std::io::Error::other(error.to_string())))?;
     write_whole(&path, &content)
 }

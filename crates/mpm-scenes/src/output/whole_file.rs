@@ -18,6 +18,6 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), SimulationError> {
     });
     replaced.map_err(|error| {
         let _ = fs::remove_file(&part);
-        SimulationError::file(path, error)
+        SimulationError::file("write", path, error)
     })
 }

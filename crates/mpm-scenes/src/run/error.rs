@@ -12,8 +12,10 @@ pub enum SimulationError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// A file cannot be written or read.
-    #[error("{}: {source}", path.display())]
+    #[error("cannot {operation} {}: {source}", path.display())]
     File {
+        /// What was tried.
+        operation: &'static str,
         /// The file or directory.
         path: PathBuf,
         /// What the system says.
@@ -91,8 +93,9 @@ impl SimulationError {
         )
     }
 
-    pub(crate) fn file(path: &Path, source: impl Into<std::io::Error>) -> Self {
+    pub(crate) fn file(operation: &'static str, path: &Path, source: impl Into<std::io::Error>) -> Self {
         Self::File {
+            operation,
             path: path.to_owned(),
             source: source.into(),
         }

@@ -34,12 +34,13 @@ fn simulate_in<const D: usize>(
     if out.exists() && !out.is_dir() {
         let reason = "is a file, and a directory is needed";
         return Err(SimulationError::file(
+            "write into",
             out,
             io::Error::new(io::ErrorKind::NotADirectory, reason),
         ));
     }
-    fs::create_dir_all(out).map_err(|error| SimulationError::file(out, error))?;
-    let _claimed = mpm_document::claim(out).map_err(|error| SimulationError::file(out, error))?;
+    fs::create_dir_all(out).map_err(|error| SimulationError::file("create", out, error))?;
+    let _claimed = mpm_document::claim(out).map_err(|error| SimulationError::file("write into", out, error))?;
     let driver = Driver::begin(scene, out, body)?;
     write_whole(&out.join(names::SCENE), scene.text.as_bytes())?;
     driver.run(observer)

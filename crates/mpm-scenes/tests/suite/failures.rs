@@ -67,7 +67,13 @@ fn a_file_in_the_place_of_the_directory_is_said_to_be_one() {
     let error = simulate(&scene(BLOCK), &file, &mut ()).expect_err("a file");
     let message = error.to_string();
     assert!(
-        message.ends_with("out: is a file, and a directory is needed"),
+        message.starts_with("cannot write into ") && message.ends_with("out: is a file, and a directory is needed"),
+        "{message}"
+    );
+    let error = simulate(&scene(BLOCK), &file.join("within"), &mut ()).expect_err("no directory");
+    let message = error.to_string();
+    assert!(
+        message.starts_with(&format!("cannot create {}", file.join("within").display())),
         "{message}"
     );
 }

@@ -14,6 +14,12 @@ fn whatever_is_wrong_is_named() {
     let expected = format!("--start: {shown}: line 2: 'two' is not a number");
     assert_eq!((error.to_string(), error.is_of_request()), (expected, false));
 
+    for name in ["none.csv", "none.npy"] {
+        let error = NumberTable::read("start", &path(name)).unwrap_err().to_string();
+        let begins = format!("--start: {}: cannot be read: ", path(name).display());
+        assert!(error.starts_with(&begins) || cfg!(not(feature = "npy")), "{error}");
+    }
+
     let error = NumberTable::read("start", &path("x.txt")).unwrap_err();
     let expected = format!(
         "--start {}: the extension must be .csv or .npy",

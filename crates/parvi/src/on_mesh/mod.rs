@@ -33,7 +33,7 @@ pub(crate) fn sample_on<const D: usize>(
         reason,
     };
     if const { D == 2 || D == 3 } {
-        let bytes = std::fs::read(&on_mesh.file).map_err(|error| refused(error.to_string()))?;
+        let bytes = std::fs::read(&on_mesh.file).map_err(|error| refused(format!("cannot be read: {error}")))?;
         let mesh = read_msh::<D>(&bytes).map_err(|error| refused(error.to_string()))?;
         on_mesh.options.sample(target, &mesh, run, observer)
     } else {

@@ -163,6 +163,8 @@ fn what_cannot_be_sampled_is_refused() {
         on(&file).sample(&Gaussian::<3>::standard(), &run, &mut Silent).err(),
         on(&file).sample(&Gaussian::<5>::standard(), &run, &mut Silent).err(),
     ];
+    let message = refused[0].as_ref().map(ToString::to_string).unwrap_or_default();
+    assert!(message.contains("none.msh: cannot be read: "), "{message}");
     for error in refused {
         assert!(matches!(&error, Some(SampleError::MeshFile { .. })), "{error:?}");
     }

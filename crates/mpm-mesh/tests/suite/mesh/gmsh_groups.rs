@@ -88,7 +88,7 @@ fn a_group_with_two_names_is_refused() {
     let error = read_msh::<2>(twice.as_bytes()).expect_err("two names");
     assert_eq!(
         error.to_string(),
-        "line 7: `outside` where the name that the group has already should be"
+        "line 7: `outside` stands where the name that the group has already should be"
     );
 }
 
@@ -140,7 +140,7 @@ fn partitioned_meshes_keep_their_groups() {
 
     let bad = file.replace("3 1 1 1 1 0", "3 1 1 1 x 0");
     let refused = read_named_msh::<2>(bad.as_bytes()).expect_err("no number").to_string();
-    assert_eq!(refused, "line 21: `x` where the number of a partition should be");
+    assert_eq!(refused, "line 21: `x` stands where the number of a partition should be");
 
     // Entities tell the groups of elements, so they cannot come behind these.
     let (before, entities) = file.split_once("$PartitionedEntities").expect("the section");
@@ -149,6 +149,6 @@ fn partitioned_meshes_keep_their_groups() {
     let refused = read_named_msh::<2>(late.as_bytes()).expect_err("too late").to_string();
     assert_eq!(
         refused,
-        "line 41: `$PartitionedEntities` where a section that may follow $Elements should be"
+        "line 41: `$PartitionedEntities` stands where a section that may follow $Elements should be"
     );
 }

@@ -89,10 +89,10 @@ fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any
             ("[20,", "[20, 65,"),
             "run.samples: 65 sample points of 64 material points",
         ),
-        (("strip.toml", "none.toml"), "scene: "),
+        (("strip.toml", "none.toml"), "scene: cannot read "),
         (
             ("manifold = [\"network\", \"linear\"]", "scene = \"none.toml\""),
-            "run.scene: ",
+            "run.scene: cannot read ",
         ),
     ];
     for (number, ((old, new), expected)) in cases.into_iter().enumerate() {

@@ -29,7 +29,7 @@ pub fn read(path: &Path) -> Result<Option<Saved>, SimulationError> {
     let bytes = match std::fs::read(path) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(SimulationError::file(path, error)),
+        Err(error) => return Err(SimulationError::file("read", path, error)),
     };
     let content = bytes.strip_prefix(MAGIC).and_then(|rest| rest.split_first_chunk());
     let whole = content.filter(|(sum, content)| u64::from_le_bytes(**sum) == fingerprint(content));
