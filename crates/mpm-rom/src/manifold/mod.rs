@@ -1,17 +1,18 @@
 //! Families of deformation maps X → g̃(X, x̂) with a few coordinates x̂.
 
 mod evaluation;
+#[cfg(test)]
+#[path = "../../tests/support/fields.rs"]
+mod fields;
 pub mod network;
 mod pod;
-#[cfg(test)]
-mod polynomial;
 
 pub(crate) use evaluation::velocities;
 pub use evaluation::{Evaluation, Wanted};
+#[cfg(test)]
+pub(crate) use fields::Fields;
 pub use network::{Network, NetworkError, NetworkShape, Scaling};
 pub use pod::{LinearError, Pod};
-#[cfg(test)]
-pub(crate) use polynomial::Fields;
 
 /// A family of maps g̃(X, x̂) from reference positions X to deformed positions, with r generalised coordinates x̂.
 pub trait Manifold<const D: usize>: Send + Sync {

@@ -1,4 +1,4 @@
-//! Families of maps in closed form, for tests.
+//! Families of maps in closed form, for the tests within the crate.
 
 use mpm_tensor::{Matrix, vector};
 
