@@ -29,11 +29,11 @@ pub struct HatBasis<const D: usize> {
 }
 
 impl<const D: usize> HatBasis<D> {
-    /// Hat functions on `mesh`.
-    pub fn new(mesh: SimplexMesh<D>) -> Self {
+    /// Hat functions on a copy of `mesh`, whose cells and vertices keep their numbers.
+    pub fn new(mesh: &SimplexMesh<D>) -> Self {
         Self {
             spacing: mesh.edge_lengths().mean,
-            search: CellSearch::new(mesh),
+            search: CellSearch::new(mesh.clone()),
             particle_cells: Vec::new(),
             schedule: Schedule::default(),
             cell_sort: CellSort::default(),

@@ -7,7 +7,7 @@ use mpm_mesh::{HatBasis, SimplexMesh};
 use crate::basis_scenes::{cloud, cube, line};
 
 fn conforms<const D: usize>(mesh: SimplexMesh<D>, size: f64) {
-    let mut basis = HatBasis::new(mesh);
+    let mut basis = HatBasis::new(&mesh);
     for round in 0..3 {
         let positions = cloud::<D>(300 + 100 * round, 0.0, size, round as u64);
         let sorted = basis.rebuild(&positions).unwrap();

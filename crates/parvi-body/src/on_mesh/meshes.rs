@@ -22,9 +22,9 @@ impl<const D: usize> Meshes<D> {
     /// # Errors
     /// [`MeshError`]: a cell without volume.
     pub fn new(mesh: &SimplexMesh<D>, copies: usize, generator: &mut impl Rng) -> Result<Self, MeshError> {
-        let mut bases = vec![HatBasis::new(mesh.clone())];
+        let mut bases = vec![HatBasis::new(mesh)];
         for _ in 0..copies {
-            bases.push(HatBasis::new(mesh.jittered(AMPLITUDE, || generator.random())?));
+            bases.push(HatBasis::new(&mesh.jittered(AMPLITUDE, || generator.random())?));
         }
         Ok(Self { bases, chosen: 0 })
     }
