@@ -28,6 +28,8 @@ pub struct EnergyBudget {
     pub friction: f64,
     /// The work of the [`Boundary`](crate::Boundary), that of [`NodeForces`](crate::NodeForces) among it.
     pub boundary: f64,
+    /// The part of `boundary` that is the work of [`NodeForces`](crate::NodeForces).
+    pub node_forces: f64,
     /// What the viscous part of the stresses takes, their work along the motion less that of the stresses at rest; no part of what the nodes gain, whose `forces` it is in. 0 unless particles
     /// deform last ([`StressUpdate::Last`](crate::StressUpdate::Last)).
     pub viscous: f64,
@@ -73,7 +75,9 @@ impl EnergyBudget {
         self.forces += sum_of(&forces, &way);
         self.contact += after(1);
         self.friction += after(2);
-        self.boundary += sum_of(&pushed, &way) + after(3);
+        let node_forces = sum_of(&pushed, &way);
+        self.node_forces += node_forces;
+        self.boundary += node_forces + after(3);
         self.damping += sum_of(&|i| subtract(&last[i], &undamped(4, i)), &way);
         if deforms_last {
             self.time_integration += sum_of(&forces, &|i| subtract(&last[i], &brought[i]));

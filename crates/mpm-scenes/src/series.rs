@@ -5,7 +5,7 @@
 /// Columns (D = 2; x, y, z as many as there are axes): `time`, `centre_x`, `centre_y`, `kinetic_energy`, `affine_energy` (with affine particles only), `strain_energy`,
 /// `potential_energy`, `barrier_energy` (with a barrier only), those of the energy budget (where a scene asks for it: `transfer_dissipation`, `friction_dissipation`, `contact_dissipation`, `damping_dissipation`,
 /// `viscous_dissipation`, `time_integration_dissipation`, `boundary_work`, `load_work`, `energy_balance`), `momentum_x`, `momentum_y`, `angular_momentum` (D = 3: `angular_momentum_x` …; D = 1: none),
-/// `lower_x`, `upper_x`, … (the particles' bounding box) and the columns of the probes, as in `tip_displacement_x`.
+/// `lower_x`, `upper_x`, … (the particles' bounding box) the columns of the probes, as in `tip_displacement_x`, and with an energy budget `traction_work`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     columns: Vec<String>,

@@ -35,8 +35,11 @@ pub(super) const COLUMNS: [&str; 9] = [
     "energy_balance",
 ];
 
+/// A column more, behind all others: the part of `boundary_work` that tractions on facets do.
+pub(super) const TRACTION_WORK: &str = "traction_work";
+
 /// Numbers in a checkpoint: those of the nodes, then those of the run.
-pub(super) type Saved = [f64; 12];
+pub(super) type Saved = [f64; 13];
 
 impl Budget {
     /// At t = 0.
@@ -75,6 +78,11 @@ impl Budget {
             self.loads,
             total,
         ]
+    }
+
+    /// The value of the column behind all others.
+    pub fn traction_work<const D: usize>(motion: &dyn Motion<D>) -> f64 {
+        motion.energy_budget().unwrap_or_default().node_forces
     }
 
     /// One step by `step`, with the work of the loads in it.
@@ -127,6 +135,7 @@ impl Budget {
             nodes.contact,
             nodes.friction,
             nodes.boundary,
+            nodes.node_forces,
             nodes.viscous,
             nodes.time_integration,
             self.kinetic,
@@ -145,6 +154,7 @@ impl Budget {
             contact,
             friction,
             boundary,
+            node_forces,
             viscous,
             time_integration,
             kinetic,
@@ -159,6 +169,7 @@ impl Budget {
             contact,
             friction,
             boundary,
+            node_forces,
             viscous,
             time_integration,
         });

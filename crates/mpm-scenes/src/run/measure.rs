@@ -53,6 +53,7 @@ pub(super) fn columns<const D: usize>(
     for probe in probes {
         columns.extend(probe.columns());
     }
+    columns.extend(budget.map(|_| budget::TRACTION_WORK.to_owned()));
     columns
 }
 
@@ -83,6 +84,7 @@ pub(super) fn row<const D: usize>(motion: &dyn Motion<D>, probes: &[Probe<D>], b
     for probe in probes {
         row.extend(probe.measure(motion, &places));
     }
+    row.extend(budget.map(|_| Budget::traction_work(motion)));
     row
 }
 

@@ -300,3 +300,45 @@ velocity = [0.5, -1.0]
     let [long, short] = [0.3, 0.1].map(rise);
     assert!(long < 2e-3 && short < 0.2 * long, "{long} {short}");
 }
+
+/// A plate that is pushed along on its left while a traction on its right holds against: t A v is taken in a second, and what pushes gives that and what damping takes.
+#[test]
+fn the_work_of_tractions_is_told_apart() {
+    let pushed = |left: &str| {
+        series_of(&format!(
+            r#"
+title = "a plate between a hand and a load"
+dimension = 2
+transfer = {{ kind = "apic" }}
+time = {{ end = 1.0, damping = 2.0 }}
+materials.rubber = {{ law = "neo-hookean", density = 1.0, young_modulus = 1000.0, poisson_ratio = 0.3 }}
+facets = [{left}{{ group = "x-upper", condition = "traction", traction = [-1.0, 0.0], ramp = 0.25 }}]
+output = {{ interval = 1.0, series_interval = 0.5, energy_budget = true }}
+mesh = {{ generate = {{ kind = "rectangle", lower = [0.0, 0.0], upper = [2.0, 1.0], size = 0.2 }} }}
+
+[[bodies]]
+name = "plate"
+material = "rubber"
+shape = {{ kind = "box", lower = [0.0, 0.0], upper = [2.0, 1.0] }}
+velocity = [0.1, 0.0]
+
+[[probes]]
+name = "middle"
+at = [1.0, 0.5]
+"#
+        ))
+    };
+    let free = pushed("");
+    let column = |run: &Series, name: &str| run.column(name).expect("a budget");
+    assert_eq!(column(&free, "traction_work"), column(&free, "boundary_work"));
+    assert_eq!(free.columns().last().map(String::as_str), Some("traction_work"));
+    let held = pushed("{ group = \"x-lower\", condition = \"prescribed\", velocity = [0.1, 0.0] }, ");
+    let [tractions, boundary] = ["traction_work", "boundary_work"].map(|name| column(&held, name));
+    let taken = tractions[1] - tractions[2];
+    assert!((taken - 0.05).abs() < 0.005, "{tractions:?}");
+    let hand = boundary[2] - boundary[1] + taken;
+    let damped = column(&held, "damping_dissipation");
+    let given = taken + damped[2] - damped[1];
+    assert!((hand / given - 1.0).abs() < 0.1, "{hand} for {given}");
+    assert!(drift(&held) < 1e-9 * hand, "{} of {hand}", drift(&held));
+}
