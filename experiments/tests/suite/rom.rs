@@ -107,7 +107,7 @@ fn what_is_wrong_is_named() {
     let root = tempfile::tempdir().unwrap();
     std::fs::write(root.path().join("strip.toml"), SCENE).unwrap();
     for (change, expected) in [
-        (("strip.toml", "none.toml"), "rom.toml, scene: none.toml: "),
+        (("strip.toml", "none.toml"), "rom.toml, scene: cannot read none.toml: "),
         (
             ("gravity.1", "gravity.7"),
             "rom.toml, keys.0.key: `gravity.7` does not fit the scene strip.toml",

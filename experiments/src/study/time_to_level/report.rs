@@ -1,6 +1,7 @@
 //! The report of the study `time-to-level`.
 
 use super::{RUNS, TimeToLevel};
+use crate::plots::page::counted;
 use crate::study::contestant::{runs_of, told};
 use crate::study::prelude::*;
 
@@ -33,9 +34,12 @@ fn times(study: &TimeToLevel, told: &Rows<'_>, page: &mut Page) {
         let state = row.number("energy_ratio").map_or("diverged".to_owned(), |levels| {
             format!("ED² is still {} times the level", number(levels))
         });
-        let [dim, steps, times] = ["dim", "steps", "times"].map(|column| row.value(column).cell());
+        let [dim, times] = ["dim", "times"].map(|column| row.value(column).cell());
+        let steps = row
+            .count("steps")
+            .map_or(MISSING.to_owned(), |steps| counted(steps, "steps"));
         let method = row.text("method");
-        format!("- d = {dim}: after {steps} steps and {times} times the time of `{own}`, {state} with `{method}`.")
+        format!("- d = {dim}: after {steps} and {times} times the time of `{own}`, {state} with `{method}`.")
     };
     let bounds = told.having(|row| is_bound(row) && row.number("times").is_some());
     page.items(&bounds.iter().map(bound).collect::<Vec<_>>());
