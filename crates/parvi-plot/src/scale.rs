@@ -182,29 +182,31 @@ impl Scale {
 
     /// Ticks for an axis with limited room: `kept(labels)` is the number of labels that would be shown of those given with
     /// their fractions, or `None` if some would touch. The finest division that shows two labels or more is taken, else the
-    /// finest that shows one.
+    /// finest that shows one. A logarithmic axis none of whose round numbers it can show, as from 2.1 to 2.9, has ticks in equal steps.
     pub fn ticks(&self, kept: impl Fn(&[(f64, String)]) -> Option<usize>) -> Ticks {
-        let candidates: Vec<Ticks> = if self.logarithmic {
-            [9, 8, 7, 6, 5, 4, 3, 2]
-                .into_iter()
-                .map(|count| self.logarithmic_ticks(count))
-                .collect()
-        } else {
-            self.steps()
-                .into_iter()
-                .map(|(step, parts)| self.linear_ticks(step, parts))
-                .collect()
-        };
         let shown = |ticks: &Ticks| kept(&ticks.major).unwrap_or(0);
-        let best = candidates.iter().find(|ticks| shown(ticks) >= 2);
-        let best = best.or_else(|| candidates.iter().find(|ticks| shown(ticks) == 1));
-        best.or(candidates.last()).cloned().unwrap_or_default()
+        let best = |candidates: &[Ticks]| {
+            let best = candidates.iter().find(|ticks| shown(ticks) >= 2);
+            let best = best.or_else(|| candidates.iter().find(|ticks| shown(ticks) == 1));
+            best.cloned()
+        };
+        let decades: Vec<Ticks> = match self.logarithmic {
+            true => (2..=9).rev().map(|count| self.logarithmic_ticks(count)).collect(),
+            false => Vec::new(),
+        };
+        best(&decades).unwrap_or_else(|| {
+            let steps = self.steps().into_iter();
+            let steps: Vec<Ticks> = steps.map(|(step, parts)| self.linear_ticks(step, parts)).collect();
+            let last = decades.last().or(steps.last());
+            best(&steps).or(last.cloned()).unwrap_or_default()
+        })
     }
 
     /// The steps between labels to try and into how many parts minor ticks divide each: first 1, 2 and 5 times powers of
     /// ten, from fine to coarse, then less usual ones.
     fn steps(&self) -> Vec<(f64, f64)> {
-        let span = self.high - self.low;
+        let (low, high) = self.ends();
+        let span = high - low;
         let decade = span.log10().floor() as i32;
         let mut steps = Vec::new();
         for factors in [
@@ -224,7 +226,8 @@ impl Scale {
     }
 
     fn linear_ticks(&self, step: f64, parts: f64) -> Ticks {
-        let magnitude = self.low.abs().max(self.high.abs());
+        let (low, high) = self.ends();
+        let magnitude = low.abs().max(high.abs());
         let leading = magnitude.log10().floor() as i32;
         let exponent = if (-2..4).contains(&leading) { 0 } else { leading };
         let unit = 10f64.powi(exponent);
@@ -238,12 +241,13 @@ impl Scale {
             ..Ticks::default()
         };
         let minor = step / parts;
-        let first = (self.low / minor - 1e-9).ceil();
-        let total = (((self.high - self.low) / minor) as usize).min(200) + 2;
+        let first = (low / minor - 1e-9).ceil();
+        let total = (((high - low) / minor) as usize).min(200) + 2;
         for index in 0..total {
             let multiple = first + index as f64;
             let value = multiple * minor;
-            let fraction = (value - self.low) / (self.high - self.low);
+            let position = if self.logarithmic { value.log10() } else { value };
+            let fraction = (position - self.low) / (self.high - self.low);
             if !(-1e-9..=1.0 + 1e-9).contains(&fraction) {
                 continue;
             }
@@ -330,6 +334,25 @@ mod tests {
         assert_eq!(ticks.major.len(), 5);
         assert_eq!(ticks.minor.len(), 4 * 8);
         assert_eq!(scale.fraction(-1.0), None);
+    }
+
+    #[test]
+    fn a_logarithmic_axis_between_round_numbers_has_steps() {
+        for (ends, expected) in [
+            ([2.1, 2.9], vec!["2.2", "2.4", "2.6", "2.8"]),
+            ([0.6, 0.9], vec!["0.6", "0.7", "0.8", "0.9"]),
+            ([2.1e-7, 2.9e-7], vec!["2.2", "2.4", "2.6", "2.8"]),
+            ([3.2, 4.8], vec!["3.5", "4.0", "4.5"]),
+        ] {
+            let scale = Scale::around(ends, AxisKind::Logarithmic, 0.0);
+            let ticks = scale.ticks(|l| (l.len() <= 5).then_some(l.len()));
+            assert_eq!(labels(&ticks), expected, "{ends:?}");
+            let unit = 10f64.powi(ticks.exponent);
+            for (fraction, label) in &ticks.major {
+                let value = label.parse::<f64>().unwrap() * unit;
+                assert!((fraction - scale.fraction(value).unwrap()).abs() < 1e-12, "{label}");
+            }
+        }
     }
 
     #[test]
