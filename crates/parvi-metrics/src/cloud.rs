@@ -42,7 +42,7 @@ impl<'a, const D: usize> Cloud<'a, D> {
     /// # Errors
     /// Those of [`Cloud::new`]; [`MetricError::LengthMismatch`] unless there are as many weights as points,
     /// [`MetricError::InvalidWeight`] for a negative, NaN or infinite weight and [`MetricError::InvalidTotalWeight`]
-    /// if they sum to zero or to infinity.
+    /// if they sum to zero, to infinity or to less than 1/`f64::MAX`.
     pub fn weighted(points: &'a [[f64; D]], weights: &'a [f64]) -> Result<Self, MetricError> {
         let cloud = Self::new(points)?;
         if weights.len() != points.len() {
@@ -184,6 +184,11 @@ mod tests {
             Cloud::weighted(&POINTS, &[f64::MAX; 3]),
             Err(MetricError::InvalidTotalWeight { .. })
         ));
+        let error = Cloud::weighted(&POINTS, &[5e-324; 3]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the weights sum to 1.5e-323; the sum and its reciprocal must be positive and finite"
+        );
     }
 
     #[test]

@@ -35,8 +35,8 @@ pub enum MetricError {
         /// The weight.
         value: f64,
     },
-    /// Weights whose sum is zero or overflows.
-    #[error("the weights sum to {total}; the sum must be positive and finite")]
+    /// Weights whose sum or its reciprocal overflows.
+    #[error("the weights sum to {total:?}; the sum and its reciprocal must be positive and finite")]
     InvalidTotalWeight {
         /// The sum.
         total: f64,
