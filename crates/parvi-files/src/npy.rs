@@ -26,7 +26,10 @@ pub fn array(shape: &[u64], values: &[f64]) -> io::Result<Vec<u8>> {
 /// # Errors
 /// What is wrong with it, in words.
 pub fn table(path: &Path) -> Result<NumberTable, String> {
-    let in_words = |error: io::Error| error.to_string();
+    let in_words = |error: io::Error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => "it ends too early: a part of the array is missing".to_owned(),
+        _ => error.to_string(),
+    };
     let file = File::open(path).map_err(|error| format!("cannot be read: {error}"))?;
     let array = NpyFile::new(BufReader::new(file)).map_err(in_words)?;
     let columns = match *array.shape() {

@@ -110,4 +110,20 @@ mod tests {
         assert_eq!(reason("x.txt", "1\n"), "txt: the extension must be .csv or .npy");
         assert!(!reason("x.npy", "no array").is_empty());
     }
+
+    #[cfg(feature = "npy")]
+    #[test]
+    fn an_array_that_is_cut_off_is_called_so() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("x.npy");
+        let whole = npy::array(&[2, 2], &[1.0, 2.0, 3.0, 4.0]).unwrap();
+        for length in [9, 60, whole.len() - 8] {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            let reason = NumberTable::read("start", &path).unwrap_err().to_string();
+            assert!(
+                reason.ends_with("x.npy: it ends too early: a part of the array is missing"),
+                "{reason}"
+            );
+        }
+    }
 }
