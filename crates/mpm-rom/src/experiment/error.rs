@@ -48,11 +48,11 @@ pub enum ExperimentError {
         /// What went wrong.
         source: Box<FullOrderError>,
     },
-    /// Nothing has been trained there.
-    #[error("{model} is missing: `parvi rom train` with this experiment and directory makes it")]
+    /// A file of the training is not there.
+    #[error("{file} is missing: `parvi rom train` with this experiment and directory makes it")]
     Untrained {
-        /// The model's file.
-        model: String,
+        /// The file.
+        file: String,
     },
     /// The directory holds another experiment.
     #[error(

@@ -1,6 +1,6 @@
 //! The directory of an experiment.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mpm_scenes::output::write_whole;
 use serde::Deserialize;
@@ -64,6 +64,15 @@ impl Experiment {
         }
         write(&file, &titled(&self.text, &self.title))
     }
+}
+
+/// A file that a run needs of the training.
+pub(super) fn made_by_training(file: PathBuf) -> Result<PathBuf, ExperimentError> {
+    if file.exists() {
+        return Ok(file);
+    }
+    let file = file.display().to_string();
+    Err(ExperimentError::Untrained { file })
 }
 
 /// Whether a directory has nothing but files of these names.

@@ -30,12 +30,7 @@ pub fn run<const D: usize>(
     directory: &Path,
     after_run: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<Vec<ReducedRow>, ExperimentError> {
-    let model = directory.join(names::MODEL);
-    if !model.exists() {
-        return Err(ExperimentError::Untrained {
-            model: model.display().to_string(),
-        });
-    }
+    files::made_by_training(directory.join(names::MODEL))?;
     // Not after minutes of choices on training runs.
     experiment.check_sample_counts::<D>()?;
     experiment.check_same_body::<D>()?;

@@ -82,9 +82,9 @@ impl Experiment {
     /// The snapshots of the training runs in a directory.
     ///
     /// # Errors
-    /// [`ExperimentError::TensorFile`]; [`ExperimentError::OtherData`] for those of another scene or of other cases.
+    /// [`ExperimentError::Untrained`] without them; [`ExperimentError::TensorFile`]; [`ExperimentError::OtherData`] for those of another scene or of other cases.
     pub(super) fn read_data<const D: usize>(&self, directory: &Path) -> Result<Snapshots<D>, ExperimentError> {
-        let file = directory.join(names::TRAINING_DATA);
+        let file = files::made_by_training(directory.join(names::TRAINING_DATA))?;
         let snapshots = Snapshots::<D>::read(&file)?;
         let (body, runs) = (snapshots.body(), snapshots.runs());
         let title = self.scene_of(&self.read_scene()?, &self.cases.train[0])?.title;

@@ -143,7 +143,7 @@ pub(super) fn models_for<const D: usize>(
     let body = Recording::<D>::of(&scene, &experiment.parameters, experiment.recorded_points)?.body;
     let networks = experiment.trainings()?.into_iter();
     let models = networks.map(|(name, _)| {
-        let file = directory_of(directory, name).join(names::MODEL);
+        let file = files::made_by_training(directory_of(directory, name).join(names::MODEL))?;
         let model = Model::<D>::read(&file)?;
         let (points, trained_on) = (body.reference.len(), model.encoder().shape().points);
         if model.summary().scene != scene.title || trained_on != points {

@@ -74,6 +74,26 @@ fn a_key_that_does_not_fit_the_scene_is_named_with_the_file_that_asks_for_it() {
 }
 
 #[test]
+fn a_run_names_what_is_left_to_the_training() {
+    let (directory, file) = files();
+    let text = EXPERIMENT.replace("cases = {", "variants = [{ name = \"other\", seed = 2 }]\ncases = {");
+    let experiment = Experiment::parse(&text, &file).expect("sound");
+    let out = directory.path().join("out");
+    train_experiment(&experiment, &out, &mut ()).expect("trained");
+    for name in [
+        "training_data.safetensors",
+        "other/model.safetensors",
+        "model.safetensors",
+    ] {
+        let missing = out.join(name);
+        std::fs::remove_file(&missing).expect("made by the training");
+        let error = run_experiment(&experiment, &out, &mut |_, _| true).expect_err(name);
+        let expected = format!("{} is missing: `parvi rom train` with ", missing.display());
+        assert!(error.to_string().starts_with(&expected), "{error}");
+    }
+}
+
+#[test]
 fn numbers_of_sample_points_and_scenes_that_are_not_there_are_refused_before_any_run() {
     let (directory, file) = files();
     let cases = [
