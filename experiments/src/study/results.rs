@@ -17,6 +17,7 @@ pub struct ResultsFile {
     path: PathBuf,
     file: File,
     has_header: bool,
+    has_other_columns: bool,
     columns: &'static str,
 }
 
@@ -44,13 +45,29 @@ impl ResultsFile {
             bytes.truncate(whole);
         }
         file.seek(SeekFrom::Start(whole as u64)).map_err(failed("read"))?;
+        let header = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
         let results = Self {
             has_header: whole > 0,
+            has_other_columns: whole > 0 && header.trim_ascii_end() != columns.replace(' ', ",").as_bytes(),
             path: path.to_owned(),
             file,
             columns,
         };
         Ok((results, once_each(path, row_file::parse(path, &bytes, columns)?)?))
+    }
+
+    /// Refuses rows under the names of others.
+    ///
+    /// # Errors
+    /// [`CommandError::Refused`] where the file has other columns, or these in another order.
+    pub fn takes_rows(&self) -> Result<(), CommandError> {
+        match self.has_other_columns {
+            false => Ok(()),
+            true => Err(CommandError::occupied(
+                &self.path,
+                "has other columns than this version of the study writes",
+            )),
+        }
     }
 
     /// Adds a row with one write and waits until it is on the disk.

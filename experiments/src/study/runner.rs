@@ -45,6 +45,10 @@ pub fn run<S: Study>(configuration: &Configuration, out: &Path) -> Result<(), Co
     in_threads(configuration.threads(), || {
         let (results, rows) = ResultsFile::open(&directory.file(results::FILE_NAME), S::COLUMNS)?;
         study.check_earlier(&rows).map_err(located)?;
+        let kept: HashSet<&str> = rows.iter().map(Row::case).collect();
+        if cases.iter().any(|case| !kept.contains(case.id())) {
+            results.takes_rows()?;
+        }
         note_start::<S>(&cases, configuration, &directory).map_err(located)?;
         run_missing(&study, &cases, &directory, results, &rows).map_err(located)?;
         write_report(&study, &directory).map_err(located)

@@ -64,6 +64,35 @@ fn a_torn_study_ends_with_the_same_results() {
 }
 
 #[test]
+fn no_row_is_added_under_the_columns_of_another_version() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
+    run(root.path(), "out");
+    let file = |name: &str| root.path().join("out").join(name);
+    let text = std::fs::read_to_string(file("results.csv")).unwrap();
+    let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let manifest = std::fs::read(file("manifest.json")).unwrap();
+    let (mut fewer, mut swapped) = (columns.clone(), columns.clone());
+    fewer.pop();
+    swapped.swap(3, 4);
+    for header in [fewer, swapped] {
+        let header = header.join(",") + "\n";
+        std::fs::write(file("results.csv"), &header).unwrap();
+        assert_refused(
+            &parvi(root.path(), "run study.toml --out out"),
+            &["results.csv has other columns than", "untouched"],
+        );
+        assert_eq!(std::fs::read_to_string(file("results.csv")).unwrap(), header);
+        assert_eq!(std::fs::read(file("manifest.json")).unwrap(), manifest);
+    }
+    // Nothing is added to a study that is complete.
+    let renamed = text.replacen("mass_error", "mass_errors", 1);
+    assert_ne!(renamed, text);
+    std::fs::write(file("results.csv"), renamed).unwrap();
+    run(root.path(), "out");
+}
+
+#[test]
 fn a_finished_study_is_not_run_again_and_its_report_needs_the_raw_results_alone() {
     let root = tempfile::tempdir().unwrap();
     std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
