@@ -53,9 +53,32 @@ fn sizes_out_of_range() {
         steps = 3 | steps = 3, time-step = -1.0 | line 4 | time-step | -1
         [1.0] | [-1.0] | spacings | -1
         seeds = [0] | seeds = [] | study.toml | seeds | empty
+        seeds = [0] | seeds = [0, 0] | study.toml: seeds, spacings or series: two cases are `d1-h1-s0`
+        [1.0] | [1.0, 1.0] | two cases are `d1-h1-s0`
         "#,
         |line| refused(line[0], line[1], &line[2..]),
     );
+}
+
+#[test]
+fn sizes_of_a_sweep_that_stand_there_twice() {
+    let root = tempfile::tempdir().unwrap();
+    let scaling = include_str!("../../configs/scaling.toml");
+    for (from, to, case) in [
+        ("particles = [100, 316,", "particles = [100, 100,", "particles-d1-m100"),
+        (
+            "nodes-per-axis = [8, 32,",
+            "nodes-per-axis = [8, 8,",
+            "nodes-d2-m10000-k8",
+        ),
+    ] {
+        let text = scaling.replace(from, to);
+        assert_ne!(text, scaling);
+        write(root.path(), &text);
+        let reason = format!("study.toml: dims, particles or nodes-per-axis: two cases are `{case}`");
+        assert_refused(&parvi(root.path(), "run study.toml --out out"), &[&reason]);
+        assert_eq!(files(root.path()), ["study.toml"]);
+    }
 }
 
 #[test]

@@ -66,7 +66,7 @@ impl Study for CovarianceSpacing {
                 cases.extend(here.map(|case| case.costing(stencil(dim.get())).with("spacing", spacing)));
             }
         }
-        Ok(cases)
+        distinct("seeds, spacings or series", cases)
     }
 
     fn run(&self, case: &Case<Sampled>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {

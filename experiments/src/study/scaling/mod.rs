@@ -120,7 +120,7 @@ impl Study for Scaling {
                 cases.push(self.case(NODES, (dim, nodes.particles.get(), Some(count)))?);
             }
         }
-        Ok(cases)
+        distinct("dims, particles or nodes-per-axis", cases)
     }
 
     fn run(&self, case: &Case<Size>, row: &mut Row, tools: Tools<'_>) -> Result<(), CommandError> {
