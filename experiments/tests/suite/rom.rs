@@ -34,6 +34,10 @@ fn a_model_is_trained_and_run() {
     for (key, expected) in [("points", "64"), ("runs", "2"), ("frames", "10"), ("epochs", "5")] {
         assert_eq!(value(&trained, key).as_deref(), Some(expected), "{key}");
     }
+    assert_refused(
+        &parvi(root.path(), "report out"),
+        &["out holds a model and no reduced runs: `parvi rom run` with"],
+    );
     let run = succeeds(root.path(), "rom run rom.toml --out out");
     assert_eq!(stdout(&run).lines().count(), 2, "{}", stdout(&run));
     assert!(

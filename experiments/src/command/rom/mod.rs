@@ -65,5 +65,11 @@ type Work = fn(&Experiment, &Path) -> Result<(), CommandError>;
 
 /// Figures and means of the reduced runs of a directory again.
 pub fn report(directory: &Path) -> Result<(), CommandError> {
+    if !directory.join(names::RESULTS).exists() {
+        return Err(CommandError::Refused(format!(
+            "{} holds a model and no reduced runs: `parvi rom run` with its experiment makes them",
+            directory.display()
+        )));
+    }
     run::report(&Experiment::read(&directory.join(names::CONFIG))?, directory)
 }
