@@ -286,7 +286,12 @@ fn files_of_particles_that_make_no_sense_are_named() {
     refused_beside(
         &[("start.csv", two)],
         "--target gaussian --dim 2 --start start.csv",
-        &["--start", "no spread"],
+        &["--start: start positions have no spread"],
+    );
+    // So far from the origin that rounding leaves no spread.
+    refused(
+        "--target gaussian --dim 2 --particles 10 --start-centre 1e20,0",
+        &["--start-centre: start positions have no spread"],
     );
     refused_beside(
         &[("start.csv", two)],

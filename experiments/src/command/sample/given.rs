@@ -5,7 +5,7 @@ use std::path::Path;
 use mpm_tensor::Matrix;
 use parvi::{GivenParticles, Run, SampleError, independent_draws, sobol_points};
 use parvi_files::{FileError, NumberTable};
-use parvi_options::{Dimension, OptionError, TargetSpecification};
+use parvi_options::{Dimension, MethodOptions, OptionError, TargetSpecification};
 use parvi_targets::{CatalogueTarget, Gaussian};
 
 use super::Arguments;
@@ -149,7 +149,7 @@ fn drawn<const D: usize>(law: &dyn CatalogueTarget<D>, run: &Run, volumes: bool)
 }
 
 /// The flag behind what a sampler refuses of given particles, or of the size of a pool.
-pub fn flag_of(error: &SampleError) -> Option<OptionError> {
+pub fn flag_of(error: &SampleError, options: &MethodOptions) -> Option<OptionError> {
     let field = match error {
         SampleError::GivenValue { field, .. }
         | SampleError::GivenLength { field, .. }
@@ -159,6 +159,8 @@ pub fn flag_of(error: &SampleError) -> Option<OptionError> {
         _ => return None,
     };
     let name = match field {
+        "start positions" if options.start_law.is_some() => "start-law",
+        "start positions" if options.start_centre.is_some() => "start-centre",
         "start positions" => "start",
         "velocities" => "velocities",
         "masses" => "masses",

@@ -104,7 +104,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         dim: arguments.dim,
         parameters: arguments.parameters.clone(),
     };
-    let dimension = target.dimension().map_err(|error| of_flags(error.into()))?;
+    let dimension = target.dimension().map_err(|error| of_flags(error.into(), arguments))?;
     let mut run = Run::new(particles(arguments)?, arguments.seed);
     run.start = arguments.options.start();
     let data = arguments.parameters.data.as_ref();
@@ -137,7 +137,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let sampled = sampling::sample(&target, &method, &run, &mut watch);
     let peak_memory = memory.peak_bytes();
     watch.progress.clear();
-    let outcome = sampled.map_err(|error| watch.reason(resumable(of_flags(error), arguments)))?;
+    let outcome = sampled.map_err(|error| watch.reason(resumable(of_flags(error, arguments), arguments)))?;
     file.write(&outcome.particles, &names)?;
     said::warn(arguments, &outcome, &names);
     if let Some(file) = pool {
@@ -211,9 +211,9 @@ fn particles(arguments: &Arguments) -> Result<usize, CommandError> {
 }
 
 /// An error of a target, or of particles, that a flag asks for is one of this flag.
-fn of_flags(error: CommandError) -> CommandError {
+fn of_flags(error: CommandError, arguments: &Arguments) -> CommandError {
     let of_flag = match &error {
-        CommandError::Sample(error) => given::flag_of(error),
+        CommandError::Sample(error) => given::flag_of(error, &arguments.options),
         CommandError::Target(error) => OptionError::of_target(error),
         _ => None,
     };
