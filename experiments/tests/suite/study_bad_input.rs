@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{assert_refused, files, for_each_line, parvi, succeeds};
+use crate::support::{assert_refused, files, for_each_line, parvi, refused_lines, succeeds};
 
 const STUDY: &str = r#"kind = "covariance-spacing"
 seeds = [0]
@@ -62,23 +62,13 @@ fn sizes_out_of_range() {
 
 #[test]
 fn sizes_of_a_sweep_that_stand_there_twice() {
-    let root = tempfile::tempdir().unwrap();
-    let scaling = include_str!("../../configs/scaling.toml");
-    for (from, to, case) in [
-        ("particles = [100, 316,", "particles = [100, 100,", "particles-d1-m100"),
-        (
-            "nodes-per-axis = [8, 32,",
-            "nodes-per-axis = [8, 8,",
-            "nodes-d2-m10000-k8",
-        ),
-    ] {
-        let text = scaling.replace(from, to);
-        assert_ne!(text, scaling);
-        write(root.path(), &text);
-        let reason = format!("study.toml: dims, particles or nodes-per-axis: two cases are `{case}`");
-        assert_refused(&parvi(root.path(), "run study.toml --out out"), &[&reason]);
-        assert_eq!(files(root.path()), ["study.toml"]);
-    }
+    refused_lines(
+        include_str!("../../configs/scaling.toml"),
+        r#"
+        [100, 316, | [100, 100, | dims, particles or nodes-per-axis: two cases are `particles-d1-m100`
+        [8, 32, | [8, 8, | two cases are `nodes-d2-m10000-k8`
+        "#,
+    );
 }
 
 #[test]
