@@ -44,7 +44,8 @@ remembered!(SofteningState: accumulated_plastic_strain, out_of_plane_strain);
 /// the deviator shrinks by κ/s, and Fᵉ becomes exp(ε − ε_trial) F_trial. The left side is concave and positive at Δγ =
 /// 0, so there is exactly one root, however steep the softening, and Newton's method from the upper end (s − κ_r)/2μ
 /// falls monotonically onto it. Softening steeper than elasticity, η (κ_p − κ_r) > √6 μ, drops the stress at once by a
-/// finite amount (snap back). Softening localises: results depend on the cell size.
+/// finite amount (snap back). Softening localises: results depend on the cell size, unless whoever steps averages ε_q over a length (`nonlocal_radius` of
+/// scenes).
 ///
 /// det F is the elastic volume ratio within D dimensions; [`volume_ratio`](Law::volume_ratio) adds the axes left out.
 ///

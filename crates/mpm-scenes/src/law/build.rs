@@ -19,6 +19,9 @@ pub fn build<const D: usize>(field: &str, table: &MaterialTable) -> Result<AnyLa
     positive(&format!("{field}.density"), table.density())?;
     if let MaterialTable::SofteningHencky(metal) = table {
         positive(&format!("{field}.norm_per_strength"), metal.norm_per_strength)?;
+        if let Some(radius) = metal.nonlocal_radius {
+            positive(&format!("{field}.nonlocal_radius"), radius)?;
+        }
     }
     table.law().map_err(|error| refused(field, error))
 }

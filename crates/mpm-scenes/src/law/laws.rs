@@ -72,8 +72,20 @@ impl<const D: usize> Laws<D> {
 
     /// An internal variable of a particle by its name; `None` where its law has no such one.
     pub fn internal_variable(&self, state: &LawState, name: &str) -> Option<f64> {
+        self.place(state, name).map(|place| state.memory.0[place])
+    }
+
+    /// Sets it; nothing where its law has no such one.
+    pub fn set_internal_variable(&self, state: &mut LawState, name: &str, value: f64) {
+        if let Some(place) = self.place(state, name) {
+            state.memory.0[place] = value;
+        }
+    }
+
+    /// The place of an internal variable in a particle's memory.
+    fn place(&self, state: &LawState, name: &str) -> Option<usize> {
         let names = self.of(state.law).internal_variables();
-        Some(state.memory.0[names.iter().position(|known| *known == name)?])
+        names.iter().position(|known| *known == name)
     }
 
     /// The law of this number; the first one for a number that there is not, which no particle of a scene has.

@@ -9,6 +9,7 @@ use super::boundary::{self, Movers};
 use super::budget::Budget;
 use super::dispatch;
 use super::motion::Motion;
+use super::nonlocal::Nonlocal;
 use super::probe::Probe;
 use super::schedule::{SAME, Schedule};
 use crate::background::Background;
@@ -24,6 +25,7 @@ pub(super) struct Body<'a, const D: usize> {
     pub motion: Box<dyn Motion<D>>,
     movers: Movers<D>,
     kinematics: Kinematics<D>,
+    nonlocal: Nonlocal,
     /// Fingerprint of the mesh's file, where there is one.
     pub mesh_contents: Option<u64>,
     /// Where the energy has gone, if the scene asks.
@@ -61,6 +63,7 @@ impl<'a, const D: usize> Body<'a, D> {
             motion,
             movers,
             kinematics,
+            nonlocal: Nonlocal::of(scene),
             mesh_contents,
             budget,
             frames: Schedule::new(output.interval, end),
@@ -110,6 +113,7 @@ impl<'a, const D: usize> Body<'a, D> {
             self.prescribe();
         }
         self.movers.place(self.motion.boundaries_mut(), time);
+        self.nonlocal.begin(&*self.motion);
         let mut taken = 0.0;
         let mut one = |motion: &mut dyn Motion<D>| {
             taken = motion.step(&control)?.time_step;
@@ -122,6 +126,7 @@ impl<'a, const D: usize> Body<'a, D> {
         done.map_err(|source| {
             SimulationError::step(step, time, source, |particle| self.start.body(self.scene, particle))
         })?;
+        self.nonlocal.end(&mut *self.motion, &self.start);
         if taken < cut {
             self.free_step = taken;
         }

@@ -14,6 +14,7 @@ mod frames;
 mod held_facets;
 mod measure;
 mod motion;
+mod nonlocal;
 mod observer;
 mod probe;
 mod schedule;

@@ -15,6 +15,9 @@ pub(super) trait Motion<const D: usize> {
     /// The particles in their present order.
     fn particles(&self) -> &Particles<D, LawState>;
 
+    /// Sets an internal variable of the particle at this place by its name; nothing where its law has no such one.
+    fn set_internal_variable(&mut self, index: usize, name: &str, value: f64);
+
     /// Exchanges the particles, as after a checkpoint.
     fn set_particles(&mut self, particles: Particles<D, LawState>);
 
@@ -65,6 +68,12 @@ where
 {
     fn particles(&self) -> &Particles<D, LawState> {
         &self.particles
+    }
+
+    fn set_internal_variable(&mut self, index: usize, name: &str, value: f64) {
+        self.medium
+            .law
+            .set_internal_variable(&mut self.particles.states[index], name, value);
     }
 
     fn set_particles(&mut self, particles: Particles<D, LawState>) {

@@ -113,6 +113,8 @@ pub struct MetalTable {
     /// η, per plastic strain. Default 0.
     #[serde(default)]
     pub softening_rate: f64,
+    /// R, a length: increments of plastic strain are averaged over what is as near in the body. Without, they are local.
+    pub nonlocal_radius: Option<f64>,
 }
 
 /// Parameters of `drucker-prager`.

@@ -15,6 +15,7 @@ mod held_facets;
 mod kinematic;
 mod law;
 mod limits;
+mod nonlocal;
 mod on_meshes;
 mod output;
 mod placement;

@@ -8,6 +8,7 @@ use mpm_mesh::generate::{EdgeTarget, rectangle};
 use mpm_mesh::{MshFormat, write_msh};
 use mpm_scenes::{Outcome, Progress, Scene, simulate};
 
+use super::nonlocal;
 use super::scenes::{BAR, BLOCK, BLOCK_ON_MESH, CUBE, HEAPS, RUBBER_ON_MESH, scene};
 
 /// All files of a directory.
@@ -33,7 +34,9 @@ fn break_if(stop: bool) -> ControlFlow<()> {
 fn a_stopped_run_ends_with_the_files_of_one_that_was_not() {
     let accounted = BLOCK.replace("[output]", "[output]\nenergy_budget = true");
     let accounted = accounted.replace("gap = 0.02", "gap = 0.02\nintegration = \"implicit\"");
-    for text in [BAR, BLOCK, HEAPS, CUBE, BLOCK_ON_MESH, &accounted] {
+    let nonlocal = nonlocal::BLOCK.replace("SPACING", "0.2");
+    let nonlocal = nonlocal.replace("RADIUS", ", nonlocal_radius = 0.4");
+    for text in [BAR, BLOCK, HEAPS, CUBE, BLOCK_ON_MESH, &accounted, &nonlocal] {
         let scene = scene(text);
         let (whole, parts) = (
             tempfile::tempdir().expect("a directory"),
