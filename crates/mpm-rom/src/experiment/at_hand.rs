@@ -3,9 +3,10 @@
 use std::cell::RefCell;
 use std::path::Path;
 
+use super::choices::maps;
 use super::chosen::Chosen;
+use super::error::unless_impossible;
 use super::files::names;
-use super::reduced::{maps, unless_impossible};
 use super::sampling::Sampling;
 use super::trained::models_for;
 use super::{Experiment, ExperimentError, ManifoldName};

@@ -162,3 +162,11 @@ impl ExperimentError {
         }
     }
 }
+
+/// A map without a state at rest, or one from which there is no step, is a result; other errors are none.
+pub(super) fn unless_impossible<T>(made: Result<T, ExperimentError>) -> Result<Result<T, String>, ExperimentError> {
+    match made {
+        Err(error @ (ExperimentError::Map(_) | ExperimentError::Online(_))) => Ok(Err(error.to_string())),
+        made => made.map(Ok),
+    }
+}

@@ -3,6 +3,7 @@
 mod at_hand;
 mod beside;
 mod case;
+mod choices;
 mod chosen;
 mod comparison;
 mod config;

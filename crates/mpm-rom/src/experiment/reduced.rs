@@ -6,12 +6,14 @@ use mpm_scenes::Scene;
 
 use super::at_hand::{AtHand, WithoutPoints};
 use super::beside::{Choice, Full, beside, not_begun};
+use super::choices::choices;
 use super::chosen::Chosen;
+use super::error::unless_impossible;
 use super::files::{self, names};
 use super::frame_files::{self, FrameFiles};
 use super::results::{self, ReducedRow};
 use super::super_resolution::Finer;
-use super::{Experiment, ExperimentError, ManifoldName, SampleCount};
+use super::{Experiment, ExperimentError, ManifoldName};
 use crate::full_order::{FullOrderError, Recording};
 use crate::online::ReducedBody;
 use crate::snapshots::{Run, Snapshots};
@@ -166,14 +168,6 @@ impl<'a, const D: usize> TestCase<'a, D> {
     }
 }
 
-/// A map without a state at rest, or one from which there is no step, is a result; other errors are none.
-pub(super) fn unless_impossible<T>(made: Result<T, ExperimentError>) -> Result<Result<T, String>, ExperimentError> {
-    match made {
-        Err(error @ (ExperimentError::Map(_) | ExperimentError::Online(_))) => Ok(Err(error.to_string())),
-        made => made.map(Ok),
-    }
-}
-
 /// The body of a scene about the origin of the training, with time steps so many times as long.
 fn reduced_body<const D: usize>(
     experiment: &Experiment,
@@ -196,44 +190,4 @@ pub(super) fn check_step_factor(experiment: &Experiment, factor: u64, steps: u64
 fn uneven(experiment: &Experiment, factor: u64, steps: u64) -> ExperimentError {
     let message = format!("{factor} does not divide the number of steps of a frame, {steps}");
     experiment.field("run.step_factor", message)
-}
-
-/// The families of maps with the numbers of their networks.
-pub(super) fn maps(experiment: &Experiment, networks: usize) -> Vec<(ManifoldName, usize)> {
-    let names = experiment.run.manifold.iter();
-    let each = names.flat_map(|&name| {
-        let count = if name == ManifoldName::Network { networks } else { 1 };
-        (0..count).map(move |network| (name, network))
-    });
-    each.collect()
-}
-
-/// All combinations of what is asked for.
-fn choices(experiment: &Experiment, networks: usize) -> Vec<Choice> {
-    let (run, mut all) = (&experiment.run, Vec::new());
-    for (manifold, network) in maps(experiment, networks) {
-        for &samples in &run.samples {
-            for &quadrature in &run.quadrature {
-                for &update in &run.update {
-                    for &step_factor in &run.step_factor {
-                        // There is one way to take all points.
-                        let ways = match samples {
-                            SampleCount::All => &run.choice[..1],
-                            SampleCount::Drawn(_) => &run.choice,
-                        };
-                        all.extend(ways.iter().map(|&chosen| Choice {
-                            manifold,
-                            network,
-                            samples,
-                            chosen,
-                            quadrature,
-                            update,
-                            step_factor,
-                        }));
-                    }
-                }
-            }
-        }
-    }
-    all
 }
